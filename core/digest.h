@@ -1,0 +1,40 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/triangle_mesh.h"
+
+namespace fracbench {
+
+/// SHA-256 over a sequence of values. Every value goes in with its length, so that ("ab", "c") and
+/// ("a", "bc") differ.
+class Digest {
+ public:
+  Digest();
+  ~Digest();
+  Digest(const Digest&) = delete;
+  Digest& operator=(const Digest&) = delete;
+
+  void add(std::span<const std::byte> bytes);
+  void add(std::string_view text);
+  void add(std::uint64_t value);
+  void add(double value);
+  void add(const TriangleMesh& mesh);
+
+  /// 64 hexadecimal digits. Nothing can be added afterwards.
+  std::string hex();
+  /// The first eight bytes as a number. Nothing can be added afterwards.
+  std::uint64_t word();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fracbench

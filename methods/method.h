@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/breakable.h"
+#include "core/context.h"
+#include "core/fragments.h"
+#include "core/options.h"
+#include "core/target.h"
+
+namespace fracbench {
+
+/// What is known of a method before it runs: Table 1 of the paper comes from here.
+struct MethodInfo {
+  std::string name;     ///< as in suites and on the command line
+  std::string summary;  ///< one line
+  std::string citation;
+  std::string shape_type;          ///< "Voronoi", "crack propagation", "cutting", ...
+  bool retains_surface = true;     ///< fragments carry the original surface unchanged
+  bool refracture = false;         ///< pieces may break again
+  bool random = false;             ///< another seed gives other pieces
+  double volume_tolerance = 1e-9;  ///< allowed |volume_ratio - 1|
+  /// Digest of the sources that the method is built from, so that records of an edited method are
+  /// not mistaken for its own. Filled in by the registry.
+  std::string source_digest;
+};
+
+/// One broken body to learn from.
+struct LearningExample {
+  Impact impact;
+  Fragments fragments;
+};
+
+/// What a learning method is given; empty for the others.
+struct LearningData {
+  std::vector<LearningExample> examples;
+};
+
+/// A fracture method. Stateless; adding one is a folder below methods/ and a line in registry.cpp.
+class Method {
+ public:
+  virtual ~Method() = default;
+
+  virtual MethodInfo info() const = 0;
+  virtual OptionsSchema options() const = 0;
+
+  /// The slow part, done once for a target and its options. Throws InputError for options that
+  /// cannot be met, MethodFailure where the method cannot work on this target.
+  virtual std::unique_ptr<Breakable> prepare(const Target& target, const LearningData& learning,
+                                             const Options& options, Context& context) const = 0;
+
+  /// Reads what Breakable::save wrote below `folder` for the same target and options.
+  virtual std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,
+                                          const Options& options) const = 0;
+};
+
+}  // namespace fracbench
