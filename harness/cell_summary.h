@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/stage_timer.h"
+#include "harness/cell_status.h"
+#include "metrics/metric.h"
+
+namespace fracbench {
+
+/// What reports need of one cell: everything in its record but the meshes and the trajectory.
+struct CellSummary {
+  std::string key;     ///< of the record, 64 hexadecimal digits
+  std::string method;  ///< name in the registry
+  std::string label;   ///< name in the suite; the same as `method` unless the suite says otherwise
+  std::string shape;
+  std::string family;    ///< of the scenario
+  std::string scenario;  ///< unique within its family
+  int repeat = 0;
+  std::uint64_t seed = 0;  ///< of the method; methods that meet the same impact differ in it
+
+  CellStatus status = CellStatus::ok;
+  std::string reason;  ///< why, where the status is neither ok nor unbroken
+
+  std::vector<MetricValue> values;   ///< metrics of the result first, then those of the machine
+  std::vector<MetricSeries> series;  ///< likewise
+  std::vector<StageTime> stages;     ///< they add up to total_seconds within 2 %
+  double total_seconds = 0;          ///< wall clock of the whole cell
+  double peak_memory = 0;            ///< of the process, bytes
+  int threads = 1;                   ///< that the cell was allowed
+
+  /// Magnitudes of the impact that broke the target (else of the strongest one that did not),
+  /// strongest first, N s; empty where nothing touched it.
+  std::vector<double> impulses;
+  int breaks = 0;  ///< how many bodies broke, the target included
+  std::string cpu;
+};
+
+}  // namespace fracbench
