@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds and runs the tests. Arguments go to ctest, e.g. -R cvd or -L geometry.
+# FRACBENCH_PRESET=sanitize (or debug) tests another build.
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+preset=${FRACBENCH_PRESET:-release}
+./scripts/install.sh
+say "building ($preset)"
+build "$preset"
+say "testing"
+ctest --preset "$preset" --parallel "$(nproc)" "$@"
