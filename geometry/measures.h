@@ -4,9 +4,10 @@
 
 namespace fracbench {
 
-/// Exact integrals over the polyhedron that a closed mesh bounds, with unit density; compensated
-/// sums about the centre of the bounding box. (Divergence theorem; Eberly, "Polyhedral Mass
-/// Properties (Revisited)", 2002.)
+/// Exact integrals over the polyhedron that a closed mesh bounds, with unit density: the signed
+/// tetrahedra between the faces and the centre of the bounding box, in compensated sums (as in
+/// Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor", 2005). A mesh of volume
+/// 0 has no centre of mass: the centre of its box stands in, with zero inertia.
 struct MassProperties {
   double volume = 0;            ///< m^3, negative for an inverted mesh
   Vec3 center = Vec3::Zero();   ///< centre of mass, m
@@ -31,10 +32,13 @@ struct BoundingBox {
   double longest_side() const { return (high - low).maxCoeff(); }
 };
 
+/// Of the corners of the faces: vertices that no face uses do not count. A mesh without faces has
+/// the box (0, 0).
 BoundingBox bounding_box(const TriangleMesh& mesh);
 
 /// The mesh moved and scaled so that its box is centred at the origin and its longest side is
-/// `longest_side`; returned bit for bit where it is already so within 1e-6 of that length.
+/// `longest_side`; returned bit for bit where it is already so within 1e-6 of that length, or
+/// where it has no extent.
 TriangleMesh normalized(const TriangleMesh& mesh, double longest_side);
 
 }  // namespace fracbench
