@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "core/random.h"
+
+namespace fracbench {
+
+struct BootstrapOptions {
+  int resamples = 2000;
+  double confidence = 0.95;
+  /// Corrected for bias and skewness (BCa; Efron, "Better bootstrap confidence intervals", 1987),
+  /// else the plain percentiles.
+  bool corrected = true;
+};
+
+struct BootstrapInterval {
+  double estimate = 0;  ///< of the data as they are
+  double low = 0;
+  double high = 0;
+  int resamples = 0;  ///< on which the statistic existed
+};
+
+/// The statistic of the chosen clusters, by their numbers, of which some may be chosen more than
+/// once; none where it does not exist (the mean of nothing).
+using ClusterStatistic = std::function<std::optional<double>(std::span<const std::size_t> chosen)>;
+
+/// A confidence interval for `statistic` from data that come in `clusters` independent clusters:
+/// the fragments of one collision are one cluster, since they depend on each other (their volumes
+/// add up to the body's). Each resample draws as many clusters as there are, with replacement, and
+/// takes each of them whole; drawing single fragments instead would give intervals that are too
+/// narrow. Two methods that were given the same collisions are compared by drawing collisions and
+/// taking the fragments of both: the intervals are then those of the paired comparison.
+/// None where the statistic of the whole data does not exist, with fewer than two clusters, or
+/// where it exists on fewer than half of the resamples.
+std::optional<BootstrapInterval> cluster_bootstrap(std::size_t clusters,
+                                                   const ClusterStatistic& statistic,
+                                                   const BootstrapOptions& options, Random& random);
+
+}  // namespace fracbench

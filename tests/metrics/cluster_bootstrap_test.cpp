@@ -1,0 +1,127 @@
+#include "metrics/cluster_bootstrap.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "metrics/summary.h"
+
+namespace fracbench {
+namespace {
+
+using Clusters = std::vector<std::vector<double>>;
+
+// Values that share an offset within their cluster: mean 0, correlated.
+Clusters clustered_data(Random& random, int clusters, int size) {
+  Clusters data(clusters);
+  for (auto& cluster : data) {
+    const double offset = random.normal();
+    for (int i = 0; i < size; ++i) cluster.push_back(offset + 0.5 * random.normal());
+  }
+  return data;
+}
+
+ClusterStatistic mean_of(const Clusters& data) {
+  return [&data](std::span<const std::size_t> chosen) -> std::optional<double> {
+    std::vector<double> values;
+    for (const std::size_t c : chosen) {
+      values.insert(values.end(), data[c].begin(), data[c].end());
+    }
+    if (values.empty()) return std::nullopt;
+    return summarize(values).mean;
+  };
+}
+
+Clusters as_single_values(const Clusters& data) {
+  Clusters single;
+  for (const auto& cluster : data) {
+    for (const double value : cluster) single.push_back({value});
+  }
+  return single;
+}
+
+// Share of 95 % intervals that hold the true mean 0.
+double coverage(const auto& regroup, bool corrected) {
+  int held = 0;
+  const int rounds = 300;
+  for (int round = 0; round < rounds; ++round) {
+    Random random(derive_seed(99, {std::to_string(round)}));
+    const Clusters data = regroup(clustered_data(random, 40, 8));
+    const auto interval = cluster_bootstrap(data.size(), mean_of(data),
+                                            {.resamples = 400, .corrected = corrected}, random);
+    held += interval->low <= 0 && 0 <= interval->high ? 1 : 0;
+  }
+  return static_cast<double>(held) / rounds;
+}
+
+TEST(ClusterBootstrap, intervals_hold_the_truth_as_often_as_they_claim) {
+  for (const bool corrected : {false, true}) {
+    const double share = coverage([](Clusters data) { return data; }, corrected);
+    EXPECT_GT(share, 0.90) << corrected;
+    EXPECT_LT(share, 0.98) << corrected;
+  }
+}
+
+TEST(ClusterBootstrap, drawing_single_values_instead_of_clusters_is_far_too_sure) {
+  EXPECT_LT(coverage(as_single_values, false), 0.65);
+}
+
+TEST(ClusterBootstrap, width_of_the_mean_is_that_of_the_cluster_means) {
+  Random random(4);
+  const Clusters data = clustered_data(random, 400, 5);
+  const auto interval = cluster_bootstrap(data.size(), mean_of(data), {}, random);
+  // Standard error sqrt((1 + 0.25 / 5) / 400), 95 %.
+  const double expected = 2 * 1.96 * std::sqrt(1.05 / 400);
+  EXPECT_NEAR(interval->high - interval->low, expected, 0.12 * expected);
+  EXPECT_EQ(interval->resamples, 2000);
+  EXPECT_LT(interval->low, interval->estimate);
+  EXPECT_GT(interval->high, interval->estimate);
+}
+
+TEST(ClusterBootstrap, same_seed_gives_the_same_interval) {
+  Random random(4);
+  const Clusters data = clustered_data(random, 20, 5);
+  Random first(17);
+  Random second(17);
+  Random third(18);
+  const auto a = cluster_bootstrap(data.size(), mean_of(data), {}, first);
+  const auto b = cluster_bootstrap(data.size(), mean_of(data), {}, second);
+  const auto c = cluster_bootstrap(data.size(), mean_of(data), {}, third);
+  EXPECT_EQ(a->low, b->low);
+  EXPECT_EQ(a->high, b->high);
+  EXPECT_NE(a->low, c->low);
+}
+
+TEST(ClusterBootstrap, correction_moves_the_interval_of_a_skewed_statistic_towards_its_tail) {
+  Random random(6);
+  Clusters data(30);
+  for (auto& cluster : data) {
+    const double x = random.normal();
+    cluster.push_back(x * x * x * x);
+  }
+  Random first(1);
+  Random second(1);
+  const auto plain = cluster_bootstrap(data.size(), mean_of(data), {.corrected = false}, first);
+  const auto corrected = cluster_bootstrap(data.size(), mean_of(data), {}, second);
+  EXPECT_GT(corrected->high, plain->high);
+  EXPECT_GT(corrected->low, plain->low);
+}
+
+TEST(ClusterBootstrap, does_not_answer_where_nothing_can_be_said) {
+  Random random(1);
+  const Clusters one{{1, 2, 3}};
+  EXPECT_FALSE(cluster_bootstrap(1, mean_of(one), {}, random).has_value());
+  EXPECT_FALSE(cluster_bootstrap(0, mean_of({}), {}, random).has_value());
+  const Clusters empty(5);
+  EXPECT_FALSE(cluster_bootstrap(5, mean_of(empty), {}, random).has_value());
+  // With one filled cluster of two, a quarter of the resamples are empty; the rest counts.
+  const Clusters half{{1, 2, 3}, {}};
+  const auto interval = cluster_bootstrap(2, mean_of(half), {.resamples = 400}, random);
+  ASSERT_TRUE(interval.has_value());
+  EXPECT_NEAR(interval->resamples, 300, 40);
+  EXPECT_EQ(interval->low, 2);
+  EXPECT_EQ(interval->high, 2);
+}
+
+}  // namespace
+}  // namespace fracbench
