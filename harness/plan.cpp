@@ -1,0 +1,202 @@
+#include "harness/plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "core/digest.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "harness/build_info.h"
+
+namespace fracbench {
+
+namespace {
+
+/// The entries that `wanted` names by label or name, in the order of the suite.
+template <typename Entries, typename NameOf>
+Entries kept(const Entries& entries, const std::vector<std::string>& wanted, std::string_view flag,
+             const NameOf& name_of) {
+  if (wanted.empty()) return entries;
+  std::vector<std::string> known;
+  for (const auto& entry : entries) {
+    known.push_back(entry.label);
+    if (name_of(entry) != entry.label) known.push_back(name_of(entry));
+  }
+  for (const std::string& name : wanted) {
+    if (std::ranges::find(known, name) == known.end()) {
+      throw InputError(fmt::format("{} {}: the suite does not have it{}", flag, name,
+                                   did_you_mean(name, known)));
+    }
+  }
+  Entries result;
+  for (const auto& entry : entries) {
+    const bool keep = std::ranges::find(wanted, entry.label) != wanted.end() ||
+                      std::ranges::find(wanted, name_of(entry)) != wanted.end();
+    if (keep) result.push_back(entry);
+  }
+  return result;
+}
+
+/// The scenes of a shape. They depend on the suite's seed, the shape and the family, so that all
+/// methods, repeats and variants of a family's options meet the same random draws.
+std::vector<PlannedScenario> make_scenarios(const Suite& suite, const SuiteShape& shape,
+                                            const Catalog& catalog) {
+  std::vector<PlannedScenario> result;
+  for (const SuiteScenario& entry : suite.scenarios) {
+    const ScenarioFamily& family = catalog.family(entry.family, suite.name);
+    const std::uint64_t seed =
+        derive_seed(suite.seed, {"scenes", shape.request.name, entry.family});
+    for (Scenario& scenario : family.scenes(entry.options, shape.request.name, seed)) {
+      std::string name =
+          entry.label == entry.family ? scenario.name : entry.label + "/" + scenario.name;
+      result.push_back({std::move(name), std::move(scenario)});
+    }
+  }
+  return result;
+}
+
+std::vector<PlannedShape> load_shapes(const std::vector<SuiteShape>& entries,
+                                      const Catalog& catalog) {
+  std::vector<PlannedShape> shapes;
+  std::vector<std::string> failures;
+  for (const SuiteShape& entry : entries) {
+    PlannedShape planned{.label = entry.label, .shape = {}, .digest = {}, .scenarios = {}};
+    try {
+      planned.shape = catalog.load_shape(entry.request);
+    } catch (const InputError& error) {
+      failures.emplace_back(error.what());
+      continue;
+    }
+    Digest digest;
+    digest.add(planned.shape.mesh);
+    planned.digest = digest.hex();
+    shapes.push_back(std::move(planned));
+  }
+  if (!failures.empty()) {
+    std::string message = fmt::format("{}", fmt::join(failures, "\n"));
+    if (!shapes.empty()) {
+      std::vector<std::string> labels;
+      for (const PlannedShape& shape : shapes) labels.push_back(shape.label);
+      message += fmt::format("\nto go on with the others: --shapes {}", fmt::join(labels, ","));
+    }
+    throw InputError(message);
+  }
+  return shapes;
+}
+
+struct KeyParts {
+  const Suite& suite;
+  const PlannedShape& shape;
+  const std::string& scenario_json;
+  const PlannedMethod& method;
+  const std::string& options_json;
+};
+
+std::string cell_key(const KeyParts& parts, const Cell& cell) {
+  Digest digest;
+  digest.add(std::string_view("fracbench cell"));
+  digest.add(static_cast<std::uint64_t>(kSchemaVersion));
+  digest.add(std::string_view(build_info().source_digest));
+  digest.add(std::string_view(parts.shape.shape.name));
+  digest.add(std::string_view(parts.shape.digest));
+  digest.add(std::string_view(parts.scenario_json));
+  digest.add(std::string_view(parts.method.info.name));
+  digest.add(std::string_view(parts.options_json));
+  digest.add(std::string_view(parts.method.info.source_digest));
+  digest.add(static_cast<std::uint64_t>(parts.suite.threads_per_cell));
+  digest.add(cell.seed);
+  digest.add(cell.prepare_seed);
+  return digest.hex();
+}
+
+/// Whether group `g` of cells (those that share an impact) is in the shard. The shift by g / count
+/// keeps a shard from getting one and the same shape each time.
+bool in_shard(std::size_t g, const Shard& shard) {
+  const auto count = static_cast<std::size_t>(shard.count);
+  return (g + g / count) % count == static_cast<std::size_t>(shard.index - 1);
+}
+
+std::vector<Cell> make_cells(const Plan& plan, const Shard& shard) {
+  // What goes into many keys is put into text once.
+  std::vector<std::vector<std::string>> scenario_json(plan.shapes.size());
+  std::size_t rounds = 0;
+  for (std::size_t s = 0; s < plan.shapes.size(); ++s) {
+    for (const PlannedScenario& planned : plan.shapes[s].scenarios) {
+      scenario_json[s].push_back(to_json(planned.scenario).dump());
+    }
+    rounds = std::max(rounds, scenario_json[s].size());
+  }
+  std::vector<std::string> options_json;
+  for (const PlannedMethod& m : plan.methods) options_json.push_back(m.options.to_json().dump());
+
+  std::vector<Cell> cells;
+  std::size_t group = 0;
+  for (int repeat = 0; repeat < plan.suite.repeats; ++repeat) {
+    for (std::size_t k = 0; k < rounds; ++k) {
+      for (std::size_t s = 0; s < plan.shapes.size(); ++s) {
+        const PlannedShape& shape = plan.shapes[s];
+        if (k >= shape.scenarios.size() || !in_shard(group++, shard)) continue;
+        for (std::size_t m = 0; m < plan.methods.size(); ++m) {
+          const PlannedMethod& method = plan.methods[m];
+          Cell cell{.shape = s, .scenario = k, .method = m, .repeat = repeat, .key = {}};
+          cell.seed = derive_seed(plan.suite.seed, {"cell", shape.label, shape.scenarios[k].name,
+                                                    method.label, std::to_string(repeat)});
+          cell.prepare_seed = derive_seed(plan.suite.seed, {"prepare", shape.label, method.label});
+          cell.key =
+              cell_key({plan.suite, shape, scenario_json[s][k], method, options_json[m]}, cell);
+          cells.push_back(std::move(cell));
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+Shard parse_shard(std::string_view text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto [slash, error] = std::from_chars(text.data(), end, shard.index);
+  if (error == std::errc() && slash != end && *slash == '/') {
+    const auto [rest, count_error] = std::from_chars(slash + 1, end, shard.count);
+    if (count_error == std::errc() && rest == end && 1 <= shard.index &&
+        shard.index <= shard.count) {
+      return shard;
+    }
+  }
+  throw InputError(fmt::format(
+      "--shard {}: must be i/n with i from 1 to n, such as 2/5 for the second of five", text));
+}
+
+Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& options) {
+  Plan plan{.suite = suite, .shapes = {}, .methods = {}, .cells = {}};
+  for (const SuiteMethod& entry :
+       kept(suite.methods, options.methods, "--methods", [](const auto& m) { return m.name; })) {
+    const Method& method = catalog.method(entry.name, suite.name);
+    plan.methods.push_back({entry.label, &method, method.info(), entry.options});
+  }
+  const std::vector<SuiteShape> shapes =
+      kept(suite.shapes, options.shapes, "--shapes", [](const auto& s) { return s.request.name; });
+  plan.shapes = load_shapes(shapes, catalog);
+
+  std::size_t scenes = 0;
+  std::size_t next = 0;
+  for (const SuiteShape& shape : suite.shapes) {
+    std::vector<PlannedScenario> scenarios = make_scenarios(suite, shape, catalog);
+    scenes += scenarios.size();
+    if (next < plan.shapes.size() && plan.shapes[next].label == shape.label) {
+      plan.shapes[next++].scenarios = std::move(scenarios);
+    }
+  }
+  plan.suite_cells = scenes * suite.methods.size() * static_cast<std::size_t>(suite.repeats);
+  plan.cells = make_cells(plan, options.shard);
+  return plan;
+}
+
+}  // namespace fracbench

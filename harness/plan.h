@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/catalog.h"
+#include "harness/suite.h"
+
+namespace fracbench {
+
+/// One of `count` parts of a plan, for as many machines; index from 1 on. All methods that meet the
+/// same impact are in the same part.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+/// Reads "2/5". Throws InputError.
+Shard parse_shard(std::string_view text);
+
+struct PlanOptions {
+  std::vector<std::string> methods = {};  ///< labels or names to keep; empty: all
+  std::vector<std::string> shapes = {};   ///< labels or names to keep; empty: all
+  Shard shard = {};
+};
+
+struct PlannedScenario {
+  std::string name;  ///< that of the scene, after the suite's label where it has one of its own
+  Scenario scenario;
+};
+
+struct PlannedShape {
+  std::string label;
+  Shape shape;
+  std::string digest;  ///< of the mesh, SHA-256
+  std::vector<PlannedScenario> scenarios;
+};
+
+struct PlannedMethod {
+  std::string label;
+  const Method* method = nullptr;
+  MethodInfo info;
+  Options options;
+};
+
+/// One thing to measure: a shape broken once by a method in a scene.
+struct Cell {
+  std::size_t shape = 0;     ///< index into Plan::shapes
+  std::size_t scenario = 0;  ///< index into PlannedShape::scenarios
+  std::size_t method = 0;    ///< index into Plan::methods
+  int repeat = 0;
+  std::uint64_t seed = 0;          ///< of the method's random numbers in this cell
+  std::uint64_t prepare_seed = 0;  ///< the same for all cells of this shape and method
+  std::string key;                 ///< SHA-256 of everything that determines the result
+};
+
+/// The cells of a suite, or of the part that was asked for, in the order in which they are
+/// measured: all methods on one impact, then the next shape, then the next impact, then the next
+/// repeat.
+struct Plan {
+  Suite suite;
+  std::vector<PlannedShape> shapes;
+  std::vector<PlannedMethod> methods;
+  std::vector<Cell> cells;
+  std::size_t suite_cells = 0;  ///< of the whole suite, before anything was left out
+};
+
+/// Version of the record's layout; part of every key.
+inline constexpr int kSchemaVersion = 1;
+
+/// Loads the shapes and derives scenes, seeds and keys. Throws InputError for shapes that are not
+/// there (all of them in one message) and for names in `options` that the suite does not have.
+Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& options = {});
+
+}  // namespace fracbench

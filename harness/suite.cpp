@@ -1,0 +1,117 @@
+#include "harness/suite.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/error.h"
+
+namespace fracbench {
+
+namespace {
+
+constexpr std::string_view kLabelCharacters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._+-";
+
+template <typename Entries>
+void check_entries(const Entries& entries, std::string_view kind, std::string_view where) {
+  if (entries.empty()) {
+    throw InputError(
+        fmt::format("{}: the suite has no {}; add at least one [[{}]]", where, kind, kind));
+  }
+  std::set<std::string> seen;
+  for (const auto& entry : entries) {
+    if (entry.label.empty() ||
+        entry.label.find_first_not_of(kLabelCharacters) != std::string::npos) {
+      throw InputError(fmt::format(
+          "{}: the {} label '{}' may hold only letters, digits and . _ + -; give it a label = ...",
+          where, kind, entry.label));
+    }
+    if (!seen.insert(entry.label).second) {
+      throw InputError(
+          fmt::format("{}: two entries [[{}]] are called '{}'; give each a label = ... of its own",
+                      where, kind, entry.label));
+    }
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Suite& suite) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"name", suite.name},
+            {"seed", suite.seed},
+            {"repeats", suite.repeats},
+            {"threads_per_cell", suite.threads_per_cell}};
+  Json& shapes = json["shapes"] = Json::object();
+  for (const SuiteShape& shape : suite.shapes) {
+    shapes[shape.label] = {{"name", shape.request.name},
+                           {"resolution", shape.request.resolution},
+                           {"longest_side", shape.request.longest_side}};
+  }
+  Json& scenarios = json["scenarios"] = Json::object();
+  for (const SuiteScenario& scenario : suite.scenarios) {
+    scenarios[scenario.label] = {{"family", scenario.family},
+                                 {"options", scenario.options.to_json()}};
+  }
+  Json& methods = json["methods"] = Json::object();
+  for (const SuiteMethod& method : suite.methods) {
+    methods[method.label] = {{"name", method.name}, {"options", method.options.to_json()}};
+  }
+  return json;
+}
+
+const OptionsSchema& suite_schema() {
+  static const OptionsSchema schema = {
+      {.name = "name",
+       .fallback = std::string(),
+       .unit = "",
+       .summary = "what the suite is called"},
+      {.name = "summary", .fallback = std::string(), .unit = "", .summary = "one line"},
+      {.name = "seed",
+       .fallback = std::int64_t{1},
+       .unit = "",
+       .summary = "all random numbers follow from it",
+       .minimum = 0},
+      {.name = "repeats",
+       .fallback = std::int64_t{1},
+       .unit = "",
+       .summary = "runs of each method on each impact",
+       .minimum = 1,
+       .maximum = 1e6},
+      {.name = "threads_per_cell",
+       .fallback = std::int64_t{1},
+       .unit = "threads",
+       .summary = "that one cell may use",
+       .minimum = 1,
+       .maximum = 1024},
+  };
+  return schema;
+}
+
+const OptionsSchema& shape_schema() {
+  static const OptionsSchema schema = {
+      {.name = "resolution",
+       .fallback = std::int64_t{0},
+       .unit = "",
+       .summary = "generated shapes: subdivisions along the longest side; 0: the shape's own",
+       .minimum = 0,
+       .maximum = 4096},
+      {.name = "longest_side",
+       .fallback = ShapeRequest{}.longest_side,
+       .unit = "m",
+       .summary = "of the bounding box; 0: keep the file's own scale and place",
+       .minimum = 0,
+       .maximum = 1000},
+  };
+  return schema;
+}
+
+void check_labels(const Suite& suite, std::string_view where) {
+  check_entries(suite.shapes, "shape", where);
+  check_entries(suite.scenarios, "scenario", where);
+  check_entries(suite.methods, "method", where);
+}
+
+}  // namespace fracbench

@@ -1,0 +1,113 @@
+#include "harness/suite_overrides.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace fracbench {
+
+namespace {
+
+constexpr std::string_view kWhere = "--set";
+
+const std::vector<std::string>& suite_keys() {
+  static const std::vector<std::string> keys = {"seed",   "repeats",  "threads_per_cell",
+                                                "method", "scenario", "shape"};
+  return keys;
+}
+
+Options replaced(const Options& options, const OptionsSchema& schema, std::string_view option,
+                 std::string_view text, std::string_view where) {
+  OptionMap values = options.values();
+  values[std::string(option)] = parse_option(schema, option, text, where);
+  return Options(schema, values, where);
+}
+
+/// Calls `change` for the entries that `label` names.
+template <typename Entries, typename Change>
+void change_entries(Entries& entries, std::string_view kind, std::string_view label,
+                    const Change& change) {
+  bool found = false;
+  std::vector<std::string> labels;
+  for (auto& entry : entries) {
+    labels.push_back(entry.label);
+    if (label != "*" && label != entry.label) continue;
+    found = true;
+    change(entry, fmt::format("{} {}.{}", kWhere, kind, entry.label));
+  }
+  if (!found) {
+    throw InputError(fmt::format("{}: the suite has no {} '{}'{}", kWhere, kind, label,
+                                 did_you_mean(label, labels)));
+  }
+}
+
+void set_top_value(Suite& suite, std::string_view key, std::string_view text) {
+  const OptionValue value = parse_option(suite_schema(), key, text, kWhere);
+  const std::int64_t number = std::get<std::int64_t>(value);
+  if (key == "seed") suite.seed = static_cast<std::uint64_t>(number);
+  if (key == "repeats") suite.repeats = static_cast<int>(number);
+  if (key == "threads_per_cell") suite.threads_per_cell = static_cast<int>(number);
+}
+
+void set_shape_value(SuiteShape& shape, std::string_view option, std::string_view text,
+                     std::string_view where) {
+  const OptionValue value = parse_option(shape_schema(), option, text, where);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+    shape.request.resolution = static_cast<int>(*whole);
+  } else {
+    shape.request.longest_side = std::get<double>(value);
+  }
+}
+
+}  // namespace
+
+Suite with_override(Suite suite, std::string_view assignment, const Catalog& catalog) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw InputError(fmt::format("{} {}: must be key=value, such as seed=7 or method.cvd.sites=40",
+                                 kWhere, assignment));
+  }
+  const std::string_view key = assignment.substr(0, equals);
+  const std::string_view text = assignment.substr(equals + 1);
+  if (key == "seed" || key == "repeats" || key == "threads_per_cell") {
+    set_top_value(suite, key, text);
+    return suite;
+  }
+  // A label may hold dots, the names of kinds and options never do.
+  const std::size_t first = key.find('.');
+  const std::size_t last = key.rfind('.');
+  const std::string_view kind = key.substr(0, first);
+  if (kind != "method" && kind != "scenario" && kind != "shape") {
+    throw InputError(fmt::format("{} {}: unknown key '{}'{}", kWhere, assignment, kind,
+                                 did_you_mean(kind, suite_keys())));
+  }
+  if (first == last) {
+    throw InputError(fmt::format("{} {}: name the {} and its option, as in {}.LABEL.OPTION=value",
+                                 kWhere, assignment, kind, kind));
+  }
+  const std::string_view label = key.substr(first + 1, last - first - 1);
+  const std::string_view option = key.substr(last + 1);
+  if (kind == "method") {
+    change_entries(suite.methods, kind, label, [&](SuiteMethod& method, const std::string& where) {
+      const OptionsSchema schema = catalog.method(method.name, where).options();
+      method.options = replaced(method.options, schema, option, text, where);
+    });
+  } else if (kind == "scenario") {
+    change_entries(suite.scenarios, kind, label,
+                   [&](SuiteScenario& scenario, const std::string& where) {
+                     const OptionsSchema schema = catalog.family(scenario.family, where).options();
+                     scenario.options = replaced(scenario.options, schema, option, text, where);
+                   });
+  } else {
+    change_entries(suite.shapes, kind, label, [&](SuiteShape& shape, const std::string& where) {
+      set_shape_value(shape, option, text, where);
+    });
+  }
+  return suite;
+}
+
+}  // namespace fracbench

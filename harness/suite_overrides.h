@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+#include "harness/catalog.h"
+#include "harness/suite.h"
+
+namespace fracbench {
+
+/// Changes one value of a suite, as --set does. `assignment` is "key=value" with one of the keys
+///   seed, repeats, threads_per_cell
+///   method.LABEL.OPTION, scenario.LABEL.OPTION, shape.LABEL.OPTION
+/// where LABEL may be * for all of them. Throws InputError, naming the nearest valid key.
+Suite with_override(Suite suite, std::string_view assignment, const Catalog& catalog);
+
+}  // namespace fracbench
