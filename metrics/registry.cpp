@@ -6,6 +6,7 @@
 #include "metrics/peak_memory.h"
 #include "metrics/roughness.h"
 #include "metrics/stage_times.h"
+#include "metrics/surface_retention.h"
 
 namespace fracbench {
 
@@ -16,6 +17,7 @@ const std::vector<std::unique_ptr<Metric>>& metrics() {
     list.push_back(std::make_unique<FragmentVolumes>());
     list.push_back(std::make_unique<FractureNormals>());
     list.push_back(std::make_unique<Roughness>());
+    list.push_back(std::make_unique<SurfaceRetention>());
     list.push_back(std::make_unique<StageTimes>());
     list.push_back(std::make_unique<PeakMemory>());
     return list;
