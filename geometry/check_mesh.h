@@ -23,7 +23,7 @@ struct MeshReport {
   std::size_t faces = 0;
   std::size_t components = 0;  ///< connected over shared edges
   bool finite = true;          ///< no NaN or infinite vertex, every index in range
-  bool closed = false;         ///< every edge has two faces
+  bool closed = false;         ///< no edge has only one face
   bool manifold = false;       ///< edges have at most two faces, vertices one fan
   bool oriented = false;  ///< neighbours agree, and every component's volume has the right sign
                           ///< (outer shells positive, the shells of cavities negative)
@@ -50,7 +50,12 @@ void require_solid(const TriangleMesh& mesh, std::string_view name,
                    const CheckOptions& options = {});
 
 /// Pairs of faces that intersect other than in a shared vertex or edge, each pair once (i < j), in
-/// ascending order; at most `limit` of them. Exact.
+/// ascending order; at most `limit` of them. Exact, for finite vertices and indices in range.
+///
+/// A vertex or edge is shared where its coordinates are equal, whatever its indices: surfaces that
+/// touch there do not intersect, but they do where they cross there, that is, where the insides of
+/// two solids overlap next to an edge that four or more faces share. Faces of zero area are left
+/// out (check_mesh reports them).
 std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(const TriangleMesh& mesh,
                                                                       int threads = 2,
                                                                       std::size_t limit = 1000);

@@ -8,14 +8,6 @@
 
 namespace fracbench {
 
-enum class PointSide { outside, inside, on_surface };
-
-/// On which side of the closed surface made of the given faces a point lies: the parity of the
-/// crossings of a vertical ray, with exact predicates and a symbolic perturbation, so that it is
-/// right for every point. Linear in the number of faces. (For many queries: SurfaceDistance.)
-PointSide point_side(const TriangleMesh& mesh, std::span<const std::int32_t> faces,
-                     const Vec3& point);
-
 /// How the closed shells (edge-connected components) of a mesh lie in each other.
 struct ShellNesting {
   struct Shell {
@@ -28,7 +20,7 @@ struct ShellNesting {
 };
 
 /// `component`: the result of face_components(mesh). The shells must be closed and must not cross
-/// each other; they may touch.
+/// each other; they may touch. Exact predicates; which way the faces are turned does not matter.
 ShellNesting shell_nesting(const TriangleMesh& mesh, std::span<const std::int32_t> component);
 
 }  // namespace fracbench

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/random.h"
@@ -125,39 +127,48 @@ TEST(SolidComponents, OfACavityThatTouchesTheOutsideInAVertexStayTogether) {
   EXPECT_NEAR(volume(parts[0].mesh), 8 - 1.0 / 6, 1e-14);
 }
 
-TEST(PointSide, IsRightAboveVerticesAndEdgesToo) {
-  const TriangleMesh mesh = cube();
-  std::vector<std::int32_t> faces(12);
-  std::iota(faces.begin(), faces.end(), 0);
-  for (int i = -6; i <= 6; ++i) {
-    for (int j = -6; j <= 6; ++j) {
-      for (int k = -6; k <= 6; ++k) {
-        const Vec3 p(i / 4.0, j / 4.0, k / 4.0);
-        const double reach = p.cwiseAbs().maxCoeff();
-        const PointSide expected = reach < 1    ? PointSide::inside
-                                   : reach == 1 ? PointSide::on_surface
-                                                : PointSide::outside;
-        EXPECT_EQ(point_side(mesh, faces, p), expected) << p.transpose();
-      }
+TEST(ShellNesting, IsRightForShellsThatTouchAtEveryVertex) {
+  // An octahedron in a cube with its corners in the middles of the sides, and the other way round
+  // a cube with its corners on the sides of an octahedron.
+  const auto octahedron = [](double radius) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 3; ++i) {
+      mesh.vertices.push_back(radius * Vec3::Unit(i));
+      mesh.vertices.push_back(-radius * Vec3::Unit(i));
     }
+    for (int i = 0; i < 8; ++i) {
+      const Face face = {i & 1 ? 1 : 0, i & 2 ? 3 : 2, i & 4 ? 5 : 4};
+      const bool even = ((i & 1) + (i >> 1 & 1) + (i >> 2 & 1)) % 2 == 0;
+      mesh.faces.push_back(even ? face : Face{face[0], face[2], face[1]});
+    }
+    return mesh;
+  };
+  EXPECT_NEAR(volume(octahedron(1)), 4.0 / 3, 1e-15);
+  for (const auto& mesh : {joined({cube(2), octahedron(1)}), joined({octahedron(3), cube(2)})}) {
+    const ShellNesting nesting = shell_nesting(mesh, face_components(mesh));
+    ASSERT_EQ(nesting.shells.size(), 2u);
+    EXPECT_EQ(nesting.shells[0].depth, 0);
+    EXPECT_EQ(nesting.shells[1].depth, 1);
+    EXPECT_EQ(nesting.shells[1].parent, 0);
   }
 }
 
-TEST(PointSide, AgreesWithTheDistanceFromTheAxisOnATorus) {
-  const TriangleMesh mesh = torus(200, 100);
-  std::vector<std::int32_t> faces(mesh.faces.size());
-  std::iota(faces.begin(), faces.end(), 0);
-  Random random(1);
-  int inside = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Vec3 p(random.uniform(-1.4, 1.4), random.uniform(-1.4, 1.4), random.uniform(-0.4, 0.4));
-    const double tube = std::hypot(std::hypot(p.x(), p.y()) - 1, p.z());
-    if (std::abs(tube - 0.3) < 1e-3) continue;
-    inside += tube < 0.3;
-    EXPECT_EQ(point_side(mesh, faces, p), tube < 0.3 ? PointSide::inside : PointSide::outside)
-        << p.transpose();
+TEST(ShellNesting, SeesManyShellsInManyShells) {
+  // A row of boxes in boxes in boxes.
+  std::vector<TriangleMesh> boxes;
+  for (int i = 0; i < 20; ++i) {
+    for (int depth = 0; depth < 4; ++depth) {
+      boxes.push_back(moved(cube(4 - depth), Vec3(5 * i, 0, 0)));
+    }
   }
-  EXPECT_GT(inside, 30);
+  const TriangleMesh mesh = joined(boxes);
+  const ShellNesting nesting = shell_nesting(mesh, face_components(mesh));
+  ASSERT_EQ(nesting.shells.size(), 80u);
+  for (int s = 0; s < 80; ++s) {
+    EXPECT_EQ(nesting.shells[s].depth, s % 4);
+    EXPECT_EQ(nesting.shells[s].parent, s % 4 == 0 ? -1 : s - 1);
+    EXPECT_DOUBLE_EQ(nesting.shells[s].volume, std::pow(4 - s % 4, 3));
+  }
 }
 
 }  // namespace
