@@ -7,6 +7,7 @@
 #include "metrics/roughness.h"
 #include "metrics/stage_times.h"
 #include "metrics/surface_retention.h"
+#include "metrics/validity.h"
 
 namespace fracbench {
 
@@ -17,6 +18,7 @@ const std::vector<std::unique_ptr<Metric>>& metrics() {
     list.push_back(std::make_unique<FragmentVolumes>());
     list.push_back(std::make_unique<FractureNormals>());
     list.push_back(std::make_unique<Roughness>());
+    list.push_back(std::make_unique<Validity>());
     list.push_back(std::make_unique<SurfaceRetention>());
     list.push_back(std::make_unique<StageTimes>());
     list.push_back(std::make_unique<PeakMemory>());
