@@ -85,7 +85,8 @@ class OpenFile {
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           std::filesystem::path temporary) {
   const auto check = [&](int error) {
     if (error != 0) fail(path, bytes.size(), error);
   };
@@ -100,8 +101,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   }
 
   static std::atomic<unsigned> serial{0};
-  const std::filesystem::path temporary =
-      path.parent_path() / fmt::format(".fracbench-{}-{}.part", ::getpid(), serial++);
+  if (temporary.empty()) {
+    temporary = path.parent_path() / fmt::format(".fracbench-{}-{}.part", ::getpid(), serial++);
+  }
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.is_open()) check(errno);
   file.remove_at_end(temporary);
