@@ -1,0 +1,38 @@
+#include "scenarios/families.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scenarios/families/single.h"
+
+namespace fracbench {
+
+namespace {
+
+std::vector<std::unique_ptr<ScenarioFamily>> make_families() {
+  std::vector<std::unique_ptr<ScenarioFamily>> families;
+  families.push_back(std::make_unique<SingleFamily>());
+  return families;
+}
+
+}  // namespace
+
+const std::vector<std::unique_ptr<ScenarioFamily>>& scenario_families() {
+  static const std::vector<std::unique_ptr<ScenarioFamily>> families = make_families();
+  return families;
+}
+
+const ScenarioFamily& find_family(std::string_view name) {
+  std::vector<std::string> names;
+  for (const auto& family : scenario_families()) {
+    names.push_back(family->info().name);
+    if (names.back() == name) return *family;
+  }
+  throw InputError(
+      fmt::format("there is no scenario family '{}'{}", name, did_you_mean(name, names)));
+}
+
+}  // namespace fracbench
