@@ -15,6 +15,25 @@ namespace {
 
 constexpr double kOnPlane = 1e-12;
 
+Vec3 normal_of(const TriangleMesh& mesh, std::size_t f) {
+  return (mesh.corner(f, 1) - mesh.corner(f, 0))
+      .cross(mesh.corner(f, 2) - mesh.corner(f, 0))
+      .normalized();
+}
+
+/// A point just outside of the middle of a face.
+Vec3 beside(const TriangleMesh& mesh, std::size_t f) {
+  return (mesh.corner(f, 0) + mesh.corner(f, 1) + mesh.corner(f, 2)) / 3 +
+         1e-6 * normal_of(mesh, f);
+}
+
+bool contains(const TriangleMesh& convex, const Vec3& point) {
+  for (std::size_t f = 0; f < convex.faces.size(); ++f) {
+    if (normal_of(convex, f).dot(point - convex.corner(f, 0)) > 1e-9) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TriangleMesh box(const Vec3& sides, const Vec3& center) {
@@ -135,26 +154,13 @@ std::vector<Piece> PlaneSplitter::fracture(const Impact&, Context&) const {
     }
     pieces = std::move(next);
   }
-  // The neighbour across a crack is the piece with the mirrored face: the one whose fracture face
-  // has its middle on the same plane at the nearest place.
-  const auto middle = [](const TriangleMesh& mesh, std::size_t f) {
-    return Vec3((mesh.corner(f, 0) + mesh.corner(f, 1) + mesh.corner(f, 2)) / 3);
-  };
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     for (std::size_t f = 0; f < pieces[p].faces.size(); ++f) {
       if (!pieces[p].faces[f].is_fracture()) continue;
-      double best = 1e-6;
+      const Vec3 beyond = beside(pieces[p].mesh, f);
       for (std::size_t q = 0; q < pieces.size(); ++q) {
-        if (q == p) continue;
-        for (std::size_t g = 0; g < pieces[q].faces.size(); ++g) {
-          if (!pieces[q].faces[g].is_fracture()) continue;
-          // Both sides are fans over the same polygon, so some pair of middles may differ: compare
-          // with the whole piece's box instead where it does.
-          const double d = (middle(pieces[q].mesh, g) - middle(pieces[p].mesh, f)).norm();
-          if (d < best) {
-            best = d;
-            pieces[p].faces[f].neighbour = static_cast<std::int32_t>(q);
-          }
+        if (q != p && contains(pieces[q].mesh, beyond)) {
+          pieces[p].faces[f].neighbour = static_cast<std::int32_t>(q);
         }
       }
     }
