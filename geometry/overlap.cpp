@@ -18,7 +18,11 @@ namespace {
 class Solid {
  public:
   Solid(const TriangleMesh& solid, double tolerance)
-      : mesh(solid), box(bounding_box(solid)), surface_(solid), tree_(solid) {
+      : mesh(solid),
+        box(bounding_box(solid)),
+        surface_(solid),
+        tree_(solid),
+        tolerance_(tolerance) {
     std::set<std::pair<std::int32_t, std::int32_t>> unique;
     for (const Face& face : mesh.faces) {
       for (int k = 0; k < 3; ++k) unique.insert(std::minmax(face[k], face[(k + 1) % 3]));
@@ -28,11 +32,17 @@ class Solid {
     for (const Face& face : mesh.faces) {
       for (const std::int32_t v : face) used[v] = 1;
     }
-    interior = find_interior(tolerance);
+    interior = find_interior();
   }
 
-  // Positive inside.
-  double depth(const Vec3& point) const { return surface_.signed_distance(point); }
+  // Positive inside, but for points nearer to the surface than the tolerance, where the sign does
+  // not matter. `near` is a triangle that is likely to be near, and becomes the nearest.
+  double depth(const Vec3& point, std::int32_t& near) const {
+    const TriangleTree::Nearest found = tree_.nearest(point, near);
+    near = found.triangle;
+    const double distance = std::sqrt(found.squared_distance);
+    return distance <= tolerance_ || surface_.inside(point) ? distance : -distance;
+  }
 
   // An upper bound of the depth that costs nothing: points out of the box are not inside.
   double depth_bound(const Vec3& point) const {
@@ -74,12 +84,14 @@ class Solid {
   std::optional<Vec3> interior;    // a point well inside
 
  private:
-  static std::optional<double> crossing(const TreeTriangle& triangle, const Vec3& p,
-                                        const Vec3& q) {
+  std::optional<double> crossing(const TreeTriangle& triangle, const Vec3& p, const Vec3& q) const {
     const Vec3 normal = triangle.ab.cross(triangle.ac);
     const double side_p = (p - triangle.a).dot(normal);
     const double side_q = (q - triangle.a).dot(normal);
     if (side_p * side_q > 0 || side_p == side_q) return std::nullopt;
+    // An edge in the plane of the triangle leaves it where it crosses one of its neighbours.
+    const double flat = tolerance_ * normal.norm();
+    if (std::abs(side_p) <= flat && std::abs(side_q) <= flat) return std::nullopt;
     const double t = side_p / (side_p - side_q);
     // Barycentric coordinates of the crossing, with slack.
     const Vec3 at = p + t * (q - p) - triangle.a;
@@ -92,7 +104,7 @@ class Solid {
   }
 
   // The middle of the way inwards from the middle of a large face.
-  std::optional<Vec3> find_interior(double tolerance) const {
+  std::optional<Vec3> find_interior() const {
     std::size_t largest = 0;
     double size = 0;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -106,7 +118,7 @@ class Solid {
     const Vec3 normal = area_vector2(mesh, largest).normalized();
     const Vec3 start =
         (mesh.corner(largest, 0) + mesh.corner(largest, 1) + mesh.corner(largest, 2)) / 3 -
-        tolerance * normal;
+        tolerance_ * normal;
     const SurfaceDistance::Hit hit = surface_.first_hit(start, -normal);
     if (hit.face < 0) return std::nullopt;
     return start - hit.t / 2 * normal;
@@ -114,6 +126,7 @@ class Solid {
 
   SurfaceDistance surface_;
   TriangleTree tree_;
+  double tolerance_;  // m
 };
 
 bool boxes_overlap(const BoundingBox& a, const BoundingBox& b, double tolerance) {
@@ -128,11 +141,12 @@ struct Place {
 // A point of `a` that is deep inside `b`. The depth changes no faster than the place, which spares
 // most questions.
 std::optional<Place> deep_point(const Solid& a, const Solid& b, double tolerance) {
+  std::int32_t near = -1;
   const auto test = [&](const Vec3& point) -> std::optional<Place> {
     if (b.depth_bound(point) <= tolerance) return std::nullopt;
-    const double depth = b.depth(point);
-    if (depth <= tolerance) return std::nullopt;
-    return Place{point, depth};
+    const double here = b.depth(point, near);
+    if (here <= tolerance) return std::nullopt;
+    return Place{point, here};
   };
   if (a.interior) {
     if (const auto found = test(*a.interior)) return found;
@@ -143,7 +157,7 @@ std::optional<Place> deep_point(const Solid& a, const Solid& b, double tolerance
     if (!a.used[v]) continue;
     depth[v] = b.depth_bound(vertices[v]);
     if (depth[v] <= tolerance) continue;
-    depth[v] = b.depth(vertices[v]);
+    depth[v] = b.depth(vertices[v], near);
     if (depth[v] > tolerance) return Place{vertices[v], depth[v]};
   }
   for (std::size_t f = 0; f < a.mesh.faces.size(); ++f) {
