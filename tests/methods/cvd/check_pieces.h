@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/breakable.h"
+#include "core/triangle_mesh.h"
+
+namespace fracbench::test {
+
+/// Edges without exactly one opposite and vertices without exactly one fan.
+std::size_t count_topology_errors(const TriangleMesh& mesh);
+
+/// All that must hold for the pieces of `body`: closed, manifold, oriented, positive volumes that
+/// add up; the body's surface kept bit for bit; interfaces the same on both sides.
+void expect_partition(const TriangleMesh& body, const std::vector<Piece>& pieces);
+
+/// A digest of all that the pieces hold.
+std::string digest(const std::vector<Piece>& pieces);
+
+/// Volumes, smallest first.
+std::vector<double> sorted_volumes(const std::vector<Piece>& pieces);
+
+}  // namespace fracbench::test
