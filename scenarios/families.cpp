@@ -6,7 +6,14 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scenarios/families/dual.h"
+#include "scenarios/families/file.h"
+#include "scenarios/families/near_shear.h"
+#include "scenarios/families/published.h"
 #include "scenarios/families/single.h"
+#include "scenarios/families/sweep_direction.h"
+#include "scenarios/families/sweep_hit_point.h"
+#include "scenarios/families/sweep_strength.h"
 
 namespace fracbench {
 
@@ -15,6 +22,13 @@ namespace {
 std::vector<std::unique_ptr<ScenarioFamily>> make_families() {
   std::vector<std::unique_ptr<ScenarioFamily>> families;
   families.push_back(std::make_unique<SingleFamily>());
+  families.push_back(std::make_unique<DualFamily>());
+  families.push_back(std::make_unique<NearShearFamily>());
+  families.push_back(std::make_unique<SweepStrengthFamily>());
+  families.push_back(std::make_unique<SweepDirectionFamily>());
+  families.push_back(std::make_unique<SweepHitPointFamily>());
+  families.push_back(std::make_unique<PublishedFamily>());
+  families.push_back(std::make_unique<FileFamily>());
   return families;
 }
 

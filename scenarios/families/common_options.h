@@ -18,6 +18,9 @@ OptionsSchema joined(OptionsSchema first, const OptionsSchema& schema);
 OptionSpec count_option(std::int64_t fallback);
 OptionsSchema speed_options(double low, double high);
 
+/// Where a ball of a sweep comes from, what it aims at, and how far away it starts.
+OptionsSchema shot_options();
+
 /// A scene with everything that common_options() decide, and no ball.
 Scenario common_scenario(const Options& options, std::string_view family, std::string name);
 
