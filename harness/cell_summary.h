@@ -28,6 +28,7 @@ struct CellSummary {
   std::vector<MetricSeries> series;  ///< likewise
   std::vector<StageTime> stages;     ///< they add up to total_seconds within 2 %
   double total_seconds = 0;          ///< wall clock of the whole cell
+  double prepare_seconds = 0;        ///< making the breakable body, in this cell or an earlier one
   double peak_memory = 0;            ///< of the process, bytes
   int threads = 1;                   ///< that the cell was allowed
 

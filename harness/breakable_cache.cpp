@@ -1,0 +1,55 @@
+#include "harness/breakable_cache.h"
+
+#include <chrono>
+
+#include "core/digest.h"
+
+namespace fracbench {
+
+namespace {
+
+std::string cache_key(const Cell& cell, const Material& m) {
+  Digest digest;
+  digest.add(static_cast<std::uint64_t>(cell.shape));
+  digest.add(static_cast<std::uint64_t>(cell.method));
+  for (const double value : {m.young_modulus, m.poisson_ratio, m.density, m.strength, m.toughness,
+                             m.compressive_factor, m.friction, m.restitution}) {
+    digest.add(value);
+  }
+  return digest.hex();
+}
+
+}  // namespace
+
+Prepared BreakableCache::get(const Cell& cell, Context& context) {
+  const PlannedShape& shape = plan_.shapes[cell.shape];
+  const PlannedMethod& method = plan_.methods[cell.method];
+  const Material& material = shape.scenarios[cell.scenario].scenario.material;
+  std::shared_ptr<Entry> entry;
+  {
+    const std::scoped_lock lock(mutex_);
+    std::shared_ptr<Entry>& slot = entries_[cache_key(cell, material)];
+    if (!slot) slot = std::make_shared<Entry>();
+    entry = slot;
+  }
+  const std::scoped_lock lock(entry->mutex);
+  context.stop_if_asked();
+  if (entry->made) return entry->prepared;
+
+  const auto start = std::chrono::steady_clock::now();
+  Prepared prepared;
+  prepared.target = std::make_shared<Target>(
+      Target{.name = shape.shape.name, .mesh = shape.shape.mesh, .material = material});
+  try {
+    prepared.breakable = method.method->prepare(*prepared.target, {}, method.options, context);
+  } catch (const MethodFailure& failure) {
+    prepared.failure = failure.what();
+  }
+  prepared.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  entry->prepared = prepared;
+  entry->made = true;
+  return prepared;
+}
+
+}  // namespace fracbench

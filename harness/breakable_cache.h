@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/context.h"
+#include "core/target.h"
+#include "harness/plan.h"
+
+namespace fracbench {
+
+/// A body that is ready to be broken.
+struct Prepared {
+  std::shared_ptr<const Target> target;
+  std::shared_ptr<const Breakable> breakable;  ///< null where the method gave up
+  std::string failure;                         ///< why, then
+  double seconds = 0;                          ///< that it took
+};
+
+/// Prepared bodies, made once for a shape, a method with its options and a material. For many
+/// threads: who comes while a body is being made waits for it.
+class BreakableCache {
+ public:
+  explicit BreakableCache(const Plan& plan) : plan_(plan) {}
+
+  /// The body for this cell. Throws what Method::prepare throws, but for MethodFailure, which is
+  /// kept like a body.
+  Prepared get(const Cell& cell, Context& context);
+
+ private:
+  struct Entry {
+    std::mutex mutex;
+    bool made = false;
+    Prepared prepared;
+  };
+
+  const Plan& plan_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Entry>> entries_;
+};
+
+}  // namespace fracbench

@@ -1,0 +1,80 @@
+#include "harness/cost_model.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "harness/data_file.h"
+#include "harness/record.h"
+#include "harness/record_store.h"
+
+namespace fracbench {
+
+void CostModel::add(const std::string& shape, const std::string& label, double seconds) {
+  for (Mean* mean : {&by_shape_[{shape, label}], &by_label_[label]}) {
+    mean->sum += seconds;
+    ++mean->count;
+  }
+}
+
+std::optional<double> CostModel::seconds(const std::string& shape, const std::string& label) const {
+  const auto exact = by_shape_.find({shape, label});
+  if (exact != by_shape_.end()) return exact->second.sum / exact->second.count;
+  const auto alike = by_label_.find(label);
+  if (alike != by_label_.end()) return alike->second.sum / alike->second.count;
+  return std::nullopt;
+}
+
+std::string CostEstimate::describe() const {
+  std::string text = fmt::format("{} cell{}", cells, cells == 1 ? "" : "s");
+  if (there > 0) text += fmt::format(", {} of them done", there);
+  const std::size_t rest = cells - there;
+  if (rest == 0) return text;
+  const std::string with = fmt::format("with {} job{}", jobs, jobs == 1 ? "" : "s");
+  if (unknown == rest) {
+    return text + "; how long they take is unknown until the first cell of each kind has run";
+  }
+  text += fmt::format("; about {} for the rest {}", describe_seconds(seconds), with);
+  if (unknown > 0) {
+    text +=
+        fmt::format(", and an unknown time for {} cells of a kind that has not run yet", unknown);
+  }
+  return text;
+}
+
+CostEstimate estimate_cost(const Plan& plan, const std::filesystem::path& folder, int jobs) {
+  CostEstimate estimate{.cells = plan.cells.size(), .jobs = jobs};
+  CostModel model;
+  std::set<std::string> there;
+  for (const std::filesystem::path& file : list_records(folder)) {
+    try {
+      const CellSummary summary = to_summary(read_hdf5(file, is_summary_array));
+      model.add(summary.shape, summary.label, summary.total_seconds);
+      there.insert(file.stem().string());
+    } catch (const DataError&) {
+      // The run itself will say so and redo it.
+    }
+  }
+  for (const Cell& cell : plan.cells) {
+    if (there.contains(cell.key)) {
+      ++estimate.there;
+      continue;
+    }
+    const auto seconds =
+        model.seconds(plan.shapes[cell.shape].label, plan.methods[cell.method].label);
+    if (!seconds) ++estimate.unknown;
+    estimate.seconds += seconds.value_or(0) / jobs;
+  }
+  return estimate;
+}
+
+std::string describe_seconds(double seconds) {
+  const auto total = static_cast<long long>(std::ceil(seconds));
+  if (total < 60) return fmt::format("{} s", total);
+  if (total < 3600) return fmt::format("{} min {} s", total / 60, total % 60);
+  if (total < 86400) return fmt::format("{} h {} min", total / 3600, total / 60 % 60);
+  return fmt::format("{} days {} h", total / 86400, total / 3600 % 24);
+}
+
+}  // namespace fracbench

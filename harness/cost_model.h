@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "harness/plan.h"
+
+namespace fracbench {
+
+/// How long cells take, from those that were measured.
+class CostModel {
+ public:
+  void add(const std::string& shape, const std::string& label, double seconds);
+
+  /// Mean over the cells of this shape and method, else over those of the method; none where the
+  /// method was never measured.
+  std::optional<double> seconds(const std::string& shape, const std::string& label) const;
+
+ private:
+  struct Mean {
+    double sum = 0;
+    std::size_t count = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Mean> by_shape_;
+  std::map<std::string, Mean> by_label_;
+};
+
+/// What a run would cost.
+struct CostEstimate {
+  std::size_t cells = 0;
+  std::size_t there = 0;    ///< their records exist
+  std::size_t unknown = 0;  ///< of those to be measured: nothing like them was ever measured
+  double seconds = 0;       ///< for the others, on `jobs` jobs
+  int jobs = 1;
+
+  /// "40 cells, 10 of them done; about 3 min for the rest with 2 jobs".
+  std::string describe() const;
+};
+
+/// Looks at the records in a results folder, which need not exist.
+CostEstimate estimate_cost(const Plan& plan, const std::filesystem::path& folder, int jobs);
+
+/// "45 s", "3 min 20 s", "2 h 5 min", "3 days 4 h".
+std::string describe_seconds(double seconds);
+
+}  // namespace fracbench

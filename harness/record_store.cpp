@@ -1,0 +1,161 @@
+#include "harness/record_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "harness/data_file.h"
+#include "harness/record_layout.h"
+#include "harness/stored_suite.h"
+
+namespace fracbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPart = ".part";
+constexpr std::size_t kKeyDigits = 64;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw InputError(fmt::format("{}: the results folder cannot be made: {}; choose another one",
+                                 folder.string(),
+                                 error ? error.message() : "there is a file of this name"));
+  }
+}
+
+/// Refuses a folder in which somebody keeps other things.
+void require_results_folder(const fs::path& folder) {
+  if (fs::exists(folder / "suite.json") || !fs::exists(folder)) return;
+  for (const auto& item : fs::directory_iterator(folder)) {
+    const std::string name = item.path().filename().string();
+    if (name == "records" || name == "claims" || name == "shapes" || name == "suite.json.part") {
+      continue;
+    }
+    throw InputError(
+        fmt::format("{}: holds '{}', which does not belong to a results folder; choose an empty or "
+                    "new folder",
+                    folder.string(), name));
+  }
+}
+
+fs::path part_of(const fs::path& file) { return file.string() + std::string(kPart); }
+
+/// The claim of a name, waited for: for files that are written in no time.
+Claim wait_for_claim(const RecordStore& store, std::string_view name) {
+  while (true) {
+    if (auto claim = store.claim(name)) return std::move(*claim);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> list_records(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& item : fs::directory_iterator(folder / "records", error)) {
+    const fs::path& file = item.path();
+    if (file.extension() == ".h5" && file.stem().string().size() == kKeyDigits) {
+      files.push_back(file);
+    }
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+RecordStore::RecordStore(fs::path folder) : folder_(std::move(folder)) {
+  if (fs::exists(folder_) && !fs::is_directory(folder_)) make_folder(folder_);
+  require_results_folder(folder_);
+  for (const char* name : {"records", "claims", "shapes"}) make_folder(folder_ / name);
+  remove_leftovers();
+}
+
+fs::path RecordStore::record_file(std::string_view key) const {
+  return folder_ / "records" / fmt::format("{}.h5", key);
+}
+
+std::optional<Claim> RecordStore::claim(std::string_view key) const {
+  return Claim::try_take(folder_ / "claims" / key);
+}
+
+bool RecordStore::contains(std::string_view key) const { return fs::exists(record_file(key)); }
+
+Record RecordStore::read(std::string_view key) const {
+  Record record = to_record(read_hdf5(record_file(key)));
+  if (record.key != key) throw DataError("is the record of another cell");
+  return record;
+}
+
+void RecordStore::write(const Claim&, const Record& record) const {
+  const fs::path file = record_file(record.key);
+  write_file_atomically(file, to_hdf5(to_tree(record)), part_of(file));
+}
+
+fs::path RecordStore::set_aside(const Claim&, std::string_view key, std::string_view why) const {
+  const fs::path file = record_file(key);
+  const fs::path aside = fmt::format("{}.{}", file.string(), why);
+  std::error_code error;
+  fs::rename(file, aside, error);
+  if (error) {
+    throw InputError(fmt::format("{}: cannot be renamed to {}: {}", file.string(),
+                                 aside.filename().string(), error.message()));
+  }
+  return aside;
+}
+
+void RecordStore::write_shape(const std::string& digest, const TriangleMesh& mesh) const {
+  const fs::path file = folder_ / "shapes" / (digest + ".h5");
+  if (fs::exists(file)) return;
+  const Claim claim = wait_for_claim(*this, "shape-" + digest);
+  if (fs::exists(file)) return;
+  DataTree tree;
+  put_mesh(tree, "mesh", mesh);
+  write_file_atomically(file, to_hdf5(tree), part_of(file));
+}
+
+TriangleMesh RecordStore::read_shape(const std::string& digest) const {
+  const TriangleMesh mesh = get_mesh(read_hdf5(folder_ / "shapes" / (digest + ".h5")), "mesh");
+  Digest sum;
+  sum.add(mesh);
+  if (sum.hex() != digest) throw DataError("the mesh is not the one that its file's name promises");
+  return mesh;
+}
+
+void RecordStore::bind_suite(const nlohmann::ordered_json& values, std::string_view summary,
+                             std::size_t cells) const {
+  const Claim claim = wait_for_claim(*this, "suite");
+  const fs::path file = folder_ / "suite.json";
+  if (fs::exists(file)) {
+    const std::vector<std::string> differences =
+        differing_values(read_stored_suite(folder_), values);
+    if (!differences.empty()) throw InputError(describe_other_suite(folder_, differences));
+    return;
+  }
+  write_file_atomically(file, stored_suite_text(values, summary, cells), part_of(file));
+}
+
+void RecordStore::remove_leftovers() const {
+  // A temporary is written only under its claim, so one that can be claimed has lost its writer.
+  for (const auto& item : fs::directory_iterator(folder_ / "records")) {
+    const fs::path& part = item.path();
+    if (part.extension() != kPart) continue;
+    const std::string key = part.stem().stem().string();
+    std::error_code error;
+    if (const auto taken = claim(key)) fs::remove(part, error);
+  }
+  // The same holds for claims; taking one and letting it go removes its file.
+  for (const auto& item : fs::directory_iterator(folder_ / "claims")) {
+    Claim::try_take(item.path());
+  }
+}
+
+}  // namespace fracbench

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/claim.h"
+#include "harness/record.h"
+
+namespace fracbench {
+
+/// The records of a results folder, sorted; only looks.
+std::vector<std::filesystem::path> list_records(const std::filesystem::path& folder);
+
+/// A results folder:
+///   suite.json            the suite that it belongs to
+///   records/<key>.h5      one file per cell, whole or not there
+///   shapes/<digest>.h5    the meshes of the targets
+///   claims/               which cells somebody is working on
+/// Any number of threads, processes and machines may use it at the same time.
+class RecordStore {
+ public:
+  /// Makes the folder where it is not there, and removes what killed processes left in it. Throws
+  /// InputError where it cannot be made or written, or holds other things than results.
+  explicit RecordStore(std::filesystem::path folder);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::filesystem::path record_file(std::string_view key) const;
+
+  /// The right to make the record of a key; none while another holds it.
+  std::optional<Claim> claim(std::string_view key) const;
+
+  /// Whether there is a file for this key; says nothing of what is in it.
+  bool contains(std::string_view key) const;
+
+  /// The record of a key, verified. Throws DataError where it is missing or damaged, or is not the
+  /// record of this key.
+  Record read(std::string_view key) const;
+
+  /// Writes the record; it is on the disk when this returns. Throws InputError where it cannot be
+  /// written (disk full), and leaves nothing behind. For the holder of the key's claim.
+  void write(const Claim& claim, const Record& record) const;
+
+  /// Renames a record that cannot be used, so that the cell is measured again and nothing is lost:
+  /// "<key>.h5.<why>". Returns the new name. For the holder of the key's claim.
+  std::filesystem::path set_aside(const Claim& claim, std::string_view key,
+                                  std::string_view why) const;
+
+  /// Keeps a target's mesh, once.
+  void write_shape(const std::string& digest, const TriangleMesh& mesh) const;
+  /// Throws DataError where it is missing or damaged.
+  TriangleMesh read_shape(const std::string& digest) const;
+
+  /// Makes the folder that of a suite: `values` is to_json(Suite), `cells` their number. Throws
+  /// InputError, naming the values that differ, where it belongs to another one.
+  void bind_suite(const nlohmann::ordered_json& values, std::string_view summary,
+                  std::size_t cells) const;
+
+ private:
+  void remove_leftovers() const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace fracbench
