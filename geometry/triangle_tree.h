@@ -27,9 +27,11 @@ double squared_distance(const TreeTriangle& triangle, const Vec3& query);
 Vec3 closest_point(const TreeTriangle& triangle, const Vec3& query);
 
 /// A bounding volume hierarchy over the faces of a mesh, four children to a node, so that one
-/// vector instruction tests all of them. Boxes are in single precision, in a frame of their own in
-/// which the mesh spans [-1, 1], and a little too large, so that every test on them errs on the
-/// side of looking closer; the triangles themselves are in double precision.
+/// vector instruction tests all of them. A child has a box along the axes, for lines and rays, and
+/// one that is turned to fit, for distances: a slanted patch of a surface is thin, and its upright
+/// box is not. Boxes are in single precision, in a frame of their own in which the mesh spans
+/// [-1, 1], and a little too large, so that every test on them errs on the side of looking closer;
+/// the triangles themselves are in double precision.
 class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh);
@@ -39,6 +41,11 @@ class TriangleTree {
     std::array<Four, 3> low, high;      ///< boxes of the children, per axis
     std::array<std::int32_t, 4> child;  ///< >= 0: a node; else empty, or ~(index into triangles())
   };
+  /// The turned boxes of the children.
+  struct TurnedBoxes {
+    std::array<std::array<Four, 3>, 3> axis;  ///< [which][coordinate], orthonormal
+    std::array<Four, 3> low, high;            ///< along each of them
+  };
   static constexpr std::int32_t empty = std::numeric_limits<std::int32_t>::min();
 
   std::span<const TreeTriangle> triangles() const { return triangles_; }
@@ -47,9 +54,19 @@ class TriangleTree {
     double squared_distance = std::numeric_limits<double>::infinity();
     std::int32_t triangle = -1;  ///< index into triangles()
   };
-  /// The nearest triangle (of equally near ones, that of the lowest face). The answer does not
-  /// depend on `start`, a triangle that is likely to be near; a good one makes it faster.
-  Nearest nearest(const Vec3& query, std::int32_t start = -1) const;
+  /// The nearest triangle; of equally near ones, that of the lowest face.
+  Nearest nearest(const Vec3& query) const;
+
+  /// Queries that are close together, and for each a triangle that is likely to be near it, or -1.
+  template <int count>
+  struct Group {
+    std::array<Vec3, count> queries;
+    std::array<std::int32_t, count> start;
+  };
+  /// The answers to all queries of a group, faster than one by one. They do not depend on `start`
+  /// nor on the other queries, though their cost does.
+  template <int count>
+  std::array<Nearest, count> nearest(const Group<count>& group) const;
 
   /// Single precision coordinates in the frame of the boxes.
   Eigen::Vector3f to_box_frame(const Vec3& point) const {
@@ -82,6 +99,10 @@ class TriangleTree {
 
  private:
   struct Builder;
+
+  /// The triangle that a descent to the nearest box at every level ends at.
+  std::int32_t likely_nearest(const Eigen::Vector3f& point) const;
+
   // The builder never makes a part smaller than an eighth of the whole, so that the depth is below
   // log(2^31) / log(8 / 7) = 161, and each level leaves at most three nodes on the stack.
   static constexpr int stack_size = 512;
@@ -89,6 +110,7 @@ class TriangleTree {
   Vec3 center_ = Vec3::Zero();
   double scale_ = 1;
   std::vector<Node> nodes_;
+  std::vector<TurnedBoxes> turned_;  ///< parallel to nodes_
   std::vector<TreeTriangle> triangles_;
 };
 
