@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "core/triangle_mesh.h"
 
@@ -13,5 +14,8 @@ namespace fracbench {
 /// Throws InputError for a file that is missing, cut short, not a mesh, or holds NaN, infinite or
 /// out-of-range values; the message names the file and the line or element.
 TriangleMesh read_mesh(const std::filesystem::path& file);
+
+/// The same from bytes that are in memory; `name` stands for the file, extension included.
+TriangleMesh mesh_from_bytes(std::string_view bytes, const std::filesystem::path& name);
 
 }  // namespace fracbench

@@ -145,11 +145,15 @@ TEST(ShellNesting, IsRightForShellsThatTouchAtEveryVertex) {
   };
   EXPECT_NEAR(volume(octahedron(1)), 4.0 / 3, 1e-15);
   for (const auto& mesh : {joined({cube(2), octahedron(1)}), joined({octahedron(3), cube(2)})}) {
-    const ShellNesting nesting = shell_nesting(mesh, face_components(mesh));
-    ASSERT_EQ(nesting.shells.size(), 2u);
-    EXPECT_EQ(nesting.shells[0].depth, 0);
-    EXPECT_EQ(nesting.shells[1].depth, 1);
-    EXPECT_EQ(nesting.shells[1].parent, 0);
+    // Both ways round, since a ray that starts on a surface may leave or enter there.
+    for (const double sign : {1.0, -1.0}) {
+      const TriangleMesh turned = mapped(mesh, [&](const Vec3& v) { return Vec3(sign * v); });
+      const ShellNesting nesting = shell_nesting(turned, face_components(turned));
+      ASSERT_EQ(nesting.shells.size(), 2u);
+      EXPECT_EQ(nesting.shells[0].depth, 0);
+      EXPECT_EQ(nesting.shells[1].depth, 1);
+      EXPECT_EQ(nesting.shells[1].parent, 0);
+    }
   }
 }
 
