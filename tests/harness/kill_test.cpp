@@ -1,0 +1,114 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <thread>
+
+#include "core/random.h"
+#include "harness/data_file.h"
+#include "harness/record_store.h"
+#include "harness/runner.h"
+#include "harness/suite_overrides.h"
+#include "toy_catalog.h"
+
+namespace fracbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolderVariable = "FRACBENCH_KILL_TEST_FOLDER";
+constexpr const char* kJobsVariable = "FRACBENCH_KILL_TEST_JOBS";
+constexpr int kKills = 15;
+
+Plan kill_plan(const Catalog& catalog) {
+  Suite suite = with_override(toy_suite(catalog), "repeats=5", catalog);
+  suite = with_override(suite, "method.*.wait=0.004", catalog);
+  return make_plan(suite, catalog);
+}
+
+/// What a record holds apart from times: names to bytes.
+std::map<std::string, DataTree::Array> results_of(const fs::path& folder) {
+  std::map<std::string, DataTree::Array> all;
+  for (const fs::path& file : list_records(folder)) {
+    const DataTree tree = read_hdf5(file);
+    to_record(tree);  // throws where the digests do not match
+    for (const auto& [path, array] : tree.arrays()) {
+      if (path.starts_with("result")) all[file.filename().string() + ":" + path] = array;
+    }
+  }
+  return all;
+}
+
+/// This same program, filling a folder; see the disabled test below.
+::pid_t start_run(const fs::path& folder, int jobs) {
+  const ::pid_t child = ::fork();
+  if (child != 0) return child;
+  ::setenv(kFolderVariable, folder.c_str(), 1);
+  ::setenv(kJobsVariable, std::to_string(jobs).c_str(), 1);
+  const int quiet = ::open("/dev/null", O_WRONLY);
+  ::dup2(quiet, STDOUT_FILENO);
+  ::execl("/proc/self/exe", "test_harness", "--gtest_also_run_disabled_tests",
+          "--gtest_filter=KillTest.DISABLED_FillsAFolder", nullptr);
+  ::_exit(99);
+}
+
+// Not a test of its own: what the tests below start and kill.
+TEST(KillTest, DISABLED_FillsAFolder) {
+  if (!std::getenv(kFolderVariable)) GTEST_SKIP() << "started by the other tests of this file";
+  const ToyWorld world;
+  const Catalog catalog = world.catalog();
+  const RunResult result = run_suite(
+      kill_plan(catalog), catalog,
+      {.folder = std::getenv(kFolderVariable), .jobs = std::atoi(std::getenv(kJobsVariable))});
+  EXPECT_TRUE(result.complete());
+}
+
+class KilledRunTest : public testing::TestWithParam<int> {};
+
+TEST_P(KilledRunTest, GivesTheSameRecordsAsOneThatWasLeftAlone) {
+  const int jobs = GetParam();
+  const fs::path base = fs::temp_directory_path() / ("fracbench-kill-test-" + std::to_string(jobs));
+  fs::remove_all(base);
+  const ToyWorld world;
+  const Catalog catalog = world.catalog();
+  const Plan plan = kill_plan(catalog);
+  ASSERT_TRUE(run_suite(plan, catalog, {.folder = base / "alone"}).complete());
+
+  Random random(20 + static_cast<std::uint64_t>(jobs));
+  int killed = 0;
+  std::size_t partly = 0;  // kills that left some records and not all
+  int status = -1;
+  for (int attempt = 0; attempt <= kKills; ++attempt) {
+    const ::pid_t child = start_run(base / "killed", jobs);
+    ASSERT_GT(child, 0);
+    if (attempt < kKills) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(random.uniform(0.01, 0.12)));
+      ::kill(child, SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    killed += WIFSIGNALED(status);
+    const std::size_t there = list_records(base / "killed").size();
+    partly += there > 0 && there < plan.cells.size();
+    ASSERT_NO_THROW(results_of(base / "killed")) << "after kill " << attempt;
+  }
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_GE(partly, 3) << "the kills came too early or too late to mean anything";
+  EXPECT_GE(killed, 3);
+  EXPECT_EQ(list_records(base / "killed").size(), plan.cells.size());
+  EXPECT_TRUE(results_of(base / "killed") == results_of(base / "alone"));
+  for (const auto& item : fs::directory_iterator(base / "killed" / "records")) {
+    EXPECT_EQ(item.path().extension(), ".h5");
+  }
+  fs::remove_all(base);
+}
+
+INSTANTIATE_TEST_SUITE_P(Jobs, KilledRunTest, testing::Values(1, 2));
+
+}  // namespace
+}  // namespace fracbench
