@@ -38,7 +38,8 @@ class Solid {
   // Positive inside, but for points nearer to the surface than the tolerance, where the sign does
   // not matter. `near` is a triangle that is likely to be near, and becomes the nearest.
   double depth(const Vec3& point, std::int32_t& near) const {
-    const TriangleTree::Nearest found = tree_.nearest(point, near);
+    const TriangleTree::Group<1> query{{point}, {near}};
+    const TriangleTree::Nearest found = tree_.nearest(query)[0];
     near = found.triangle;
     const double distance = std::sqrt(found.squared_distance);
     return distance <= tolerance_ || surface_.inside(point) ? distance : -distance;
