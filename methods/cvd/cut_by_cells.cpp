@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "geometry/check_mesh.h"
 #include "methods/cvd/cut_cracks.h"
 #include "methods/cvd/cut_surface.h"
 #include "methods/cvd/predicates.h"
@@ -93,19 +94,43 @@ void triangulate_cracks(const VoronoiCells& cells, const CrackOutlines& cracks, 
   }
 }
 
-// Rounding must not have joined two corners of a polygon.
-void require_apart(const SurfaceTopology& body, const SurfaceCut& surface,
-                   const CellComplex& complex) {
+// The shortest edge that the cut made. Rounding must not have joined its ends.
+double shortest_edge(const SurfaceTopology& body, const SurfaceCut& surface,
+                     const CrackOutlines& cracks, const CellComplex& complex) {
+  double shortest = std::numeric_limits<double>::infinity();
   const auto first_new = static_cast<std::int32_t>(body.mesh.vertices.size());
+  const auto look_at = [&](std::int32_t a, std::int32_t b) {
+    if (std::max(a, b) < first_new) return;
+    shortest = std::min(shortest, (complex.vertices[a] - complex.vertices[b]).norm());
+  };
   for (const auto& polygon : surface.polygons) {
     for (std::int32_t n = 0; n < polygon.size; ++n) {
-      const std::int32_t a = surface.corners[polygon.first + n];
-      const std::int32_t b = surface.corners[polygon.first + (n + 1) % polygon.size];
-      if (std::max(a, b) >= first_new && complex.vertices[a] == complex.vertices[b]) {
-        throw Degenerate("two corners of a cell coincide on the body's surface");
-      }
+      look_at(surface.corners[polygon.first + n],
+              surface.corners[polygon.first + (n + 1) % polygon.size]);
     }
   }
+  for (const CrackOutline& outline : cracks.outlines) {
+    for (const auto& [a, b] : outline.edges) look_at(a, b);
+  }
+  if (shortest == 0) throw Degenerate("two corners of a cell coincide");
+  return shortest;
+}
+
+bool has_crossings(const CellComplex& complex, int threads) {
+  TriangleMesh mesh{complex.vertices, {}};
+  for (const SurfaceTriangle& triangle : complex.surface) mesh.faces.push_back(triangle.corners);
+  for (const CrackTriangle& triangle : complex.cracks) mesh.faces.push_back(triangle.corners);
+  return !self_intersections(mesh, threads, 1).empty();
+}
+
+// Rounding moves a vertex by e. Where three vertices of an outline lie on a line (on coplanar faces
+// of the body), a distance d apart, that bends the line to a circle of radius d^2 / 2e. While the
+// radius is larger than the body, Delaunay triangles connect the middle one with the inside; below
+// that they may bridge it, and cross the surface.
+bool is_delicate(const SurfaceTopology& body, double shortest) {
+  constexpr double kMargin = 10;
+  const double rounding = body.scale * std::numeric_limits<double>::epsilon();
+  return shortest * shortest < kMargin * 2 * rounding * body.box.longest_side();
 }
 
 }  // namespace
@@ -114,11 +139,15 @@ CellComplex cut_by_cells(const SurfaceTopology& body, const VoronoiCells& cells,
   CellComplex complex;
   const SurfaceCut surface = cut_surface(body, cells, threads);
   place_surface_vertices(body, cells, surface, threads, complex);
-  require_apart(body, surface, complex);
   const CrackOutlines cracks = crack_outlines(body, cells, surface, complex.vertices);
   place_inner_vertices(cells, cracks, complex);
+  complex.shortest_edge = shortest_edge(body, surface, cracks, complex);
   triangulate_surface(body, surface, threads, complex);
   triangulate_cracks(cells, cracks, threads, complex);
+  if (is_delicate(body, complex.shortest_edge) && has_crossings(complex, threads) &&
+      self_intersections(body.mesh, threads, 1).empty()) {
+    throw Degenerate("two faces cross by rounding");
+  }
   return complex;
 }
 

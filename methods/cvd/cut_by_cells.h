@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -31,6 +32,8 @@ struct CellComplex {
   std::vector<std::array<std::int32_t, 4>> cells_at;
   std::vector<SurfaceTriangle> surface;  ///< ascending by parent_face
   std::vector<CrackTriangle> cracks;     ///< ascending by cells
+  /// Length of the shortest edge that the cut made, m; infinite where there is none.
+  double shortest_edge = std::numeric_limits<double>::infinity();
 };
 
 /// Cuts a body by Voronoi cells.
@@ -41,6 +44,10 @@ struct CellComplex {
 /// complex is consistent, and each is computed once, so that all its users hold the same bits.
 /// Throws Degenerate where a sign cannot be decided or rounding would close a gap: then the sites
 /// have to be moved by a hair. The same result for any number of threads.
+///
+/// Vertices are rounded to doubles. Only where the cut makes very short edges can that let faces
+/// cross; then the whole complex is searched for crossings, and Degenerate thrown where the body
+/// itself has none.
 CellComplex cut_by_cells(const SurfaceTopology& body, const VoronoiCells& cells, int threads);
 
 }  // namespace fracbench::cvd

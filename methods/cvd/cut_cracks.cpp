@@ -11,7 +11,7 @@ namespace fracbench::cvd {
 namespace {
 
 // Crossings of a Voronoi edge with the surface must be this far apart, as a share of the body's
-// size, to be put in order.
+// scale, to be put in order.
 constexpr double kApart = 1e-14;
 
 struct Crossing {
@@ -29,7 +29,7 @@ class InnerEdges {
              const std::vector<Vec3>& vertices)
       : cells_(cells), crossings_(cells.edges.size()), place_(cells.vertices.size()) {
     collect_crossings(body, surface, vertices);
-    sort_crossings(kApart * body.box.longest_side());
+    sort_crossings(kApart * body.scale);
     place_vertices(body);
   }
 

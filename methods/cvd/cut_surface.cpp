@@ -12,7 +12,7 @@ namespace fracbench::cvd {
 
 namespace {
 
-// A mesh vertex must be clear of the bisectors by this share of the body's size: a hundred times
+// A mesh vertex must be clear of the bisectors by this share of the body's scale: a thousand times
 // the rounding of a coordinate, so that no sliver between them is lost.
 constexpr double kClearance = 1e-13;
 // Relative error of h_ij in double precision, as a share of |p_j - p_i| times the extent.
@@ -23,15 +23,15 @@ constexpr std::size_t kChunk = 256;
 // Walks from cell to nearer neighbouring cell; in a Voronoi diagram that ends at the right one.
 class OwnerSearch {
  public:
-  OwnerSearch(const VoronoiCells& cells, const BoundingBox& body)
+  OwnerSearch(const VoronoiCells& cells, const SurfaceTopology& body)
       : cells_(cells), clearance_(cells.neighbours.size()) {
-    BoundingBox all = body;
+    BoundingBox all = body.box;
     for (const Vec3& site : cells.sites) {
       all.low = all.low.cwiseMin(site);
       all.high = all.high.cwiseMax(site);
     }
     const double distance =
-        std::max(kClearance * body.longest_side(), kRounding * (all.high - all.low).norm());
+        std::max(kClearance * body.scale, kRounding * (all.high - all.low).norm());
     for (std::size_t i = 0; i < clearance_.size(); ++i) {
       for (const std::int32_t j : cells.neighbours[i]) {
         clearance_[i].push_back(2 * distance * (cells.sites[j] - cells.sites[i]).norm());
@@ -72,7 +72,7 @@ class OwnerSearch {
 
 std::vector<std::int32_t> owners(const SurfaceTopology& body, const VoronoiCells& cells,
                                  int threads) {
-  const OwnerSearch search(cells, body.box);
+  const OwnerSearch search(cells, body);
   const auto& vertices = body.mesh.vertices;
   std::vector<std::uint8_t> used(vertices.size());
   for (const Face& face : body.mesh.faces) {

@@ -24,7 +24,7 @@ constexpr std::size_t kSamplesPerSite = 200;
 // Where sites lie in a special position (a bisector through a vertex of the body, five sites on a
 // sphere), each is moved by up to this share of the body's size, ten times farther at each attempt.
 constexpr double kFirstShift = 1e-9;
-constexpr int kAttempts = 5;
+constexpr int kAttempts = 7;
 
 // Limits for sites by hand, as shares of the body's longest side.
 constexpr double kNearestSites = 1e-5;

@@ -56,6 +56,8 @@ SurfaceTopology surface_topology(const TriangleMesh& mesh) {
   }
   topology.box = bounding_box(mesh);
   topology.volume = volume(mesh);
+  topology.scale = std::max({topology.box.longest_side(), topology.box.low.cwiseAbs().maxCoeff(),
+                             topology.box.high.cwiseAbs().maxCoeff()});
   if (!(topology.volume > 0)) {
     throw MethodFailure(fmt::format("the body's volume is {} m^3, must be positive; turn its faces",
                                     topology.volume));

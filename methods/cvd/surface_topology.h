@@ -18,6 +18,9 @@ struct SurfaceTopology {
   std::vector<std::array<std::int32_t, 3>> face_edges;
   BoundingBox box;
   double volume = 0;  ///< m^3
+  /// What the rounding of coordinates is in proportion to: the largest coordinate or the longest
+  /// side of the box, m.
+  double scale = 0;
 };
 
 /// Throws MethodFailure, naming the edge, where the mesh is not closed, not manifold along an edge

@@ -9,6 +9,7 @@
 
 #include "core/digest.h"
 #include "core/sum.h"
+#include "geometry/check_mesh.h"
 #include "geometry/measures.h"
 
 namespace fracbench::test {
@@ -125,6 +126,28 @@ void expect_partition(const TriangleMesh& body, const std::vector<Piece>& pieces
   EXPECT_NEAR(total.value() / volume(body), 1, 1e-14);
   expect_surface_kept(body, pieces);
   expect_interfaces_mutual(pieces);
+  EXPECT_EQ(count_crossings(pieces), 0u);
+}
+
+std::size_t count_crossings(const std::vector<Piece>& pieces) {
+  TriangleMesh complex;
+  std::map<Point, std::int32_t> number;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (std::size_t f = 0; f < pieces[p].faces.size(); ++f) {
+      const PieceFace& face = pieces[p].faces[f];
+      if (face.is_fracture() && face.neighbour < static_cast<std::int32_t>(p)) continue;
+      Face corners{};
+      for (int c = 0; c < 3; ++c) {
+        const Vec3& v = pieces[p].mesh.corner(f, c);
+        const auto [entry, fresh] =
+            number.try_emplace(bits(v), static_cast<std::int32_t>(complex.vertices.size()));
+        if (fresh) complex.vertices.push_back(v);
+        corners[c] = entry->second;
+      }
+      complex.faces.push_back(corners);
+    }
+  }
+  return self_intersections(complex).size();
 }
 
 std::string digest(const std::vector<Piece>& pieces) {

@@ -12,8 +12,13 @@ namespace fracbench::test {
 std::size_t count_topology_errors(const TriangleMesh& mesh);
 
 /// All that must hold for the pieces of `body`: closed, manifold, oriented, positive volumes that
-/// add up; the body's surface kept bit for bit; interfaces the same on both sides.
+/// add up; the body's surface kept bit for bit; interfaces the same on both sides; no
+/// face crosses another, of the same or another piece.
 void expect_partition(const TriangleMesh& body, const std::vector<Piece>& pieces);
+
+/// Pairs of faces that cross in the complex of all pieces, in which neighbours share the faces
+/// between them: 0 where each piece is free of self-intersections and all are disjoint.
+std::size_t count_crossings(const std::vector<Piece>& pieces);
 
 /// A digest of all that the pieces hold.
 std::string digest(const std::vector<Piece>& pieces);
