@@ -367,8 +367,8 @@ std::array<TriangleTree::Nearest, count> TriangleTree::nearest(const Group<count
 template std::array<TriangleTree::Nearest, 1> TriangleTree::nearest<1>(const Group<1>&) const;
 template std::array<TriangleTree::Nearest, 8> TriangleTree::nearest<8>(const Group<8>&) const;
 
-TriangleTree::Nearest TriangleTree::nearest(const Vec3& query) const {
-  Group<1> group{.queries = {query}, .start = {-1}};
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& query, std::int32_t start) const {
+  Group<1> group{.queries = {query}, .start = {start}};
   return nearest(group)[0];
 }
 
