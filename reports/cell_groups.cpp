@@ -1,0 +1,106 @@
+#include "reports/cell_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "metrics/summary.h"
+
+namespace fracbench {
+
+std::vector<CellGroup> group_cells(const std::vector<CellSummary>& cells) {
+  std::map<std::string, std::size_t> shapes;
+  std::map<std::string, std::size_t> labels;
+  for (const CellSummary& cell : cells) {
+    shapes.try_emplace(cell.shape, shapes.size());
+    labels.try_emplace(cell.label, labels.size());
+  }
+  std::map<std::pair<std::size_t, std::size_t>, CellGroup> groups;
+  for (const CellSummary& cell : cells) {
+    CellGroup& group = groups[{shapes.at(cell.shape), labels.at(cell.label)}];
+    group.label = cell.label;
+    group.shape = cell.shape;
+    group.cells.emplace_back(cell);
+  }
+  std::vector<CellGroup> result;
+  for (auto& [order, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+std::vector<CellRef> broken_cells(std::span<const CellRef> cells) {
+  std::vector<CellRef> result;
+  std::ranges::copy_if(cells, std::back_inserter(result),
+                       [](const CellSummary& cell) { return cell.status == CellStatus::ok; });
+  return result;
+}
+
+std::optional<double> value_of(const CellSummary& cell, std::string_view metric) {
+  const auto found = std::ranges::find(cell.values, metric, &MetricValue::name);
+  if (found == cell.values.end()) return std::nullopt;
+  return found->value;
+}
+
+std::string unit_of(const CellSummary& cell, std::string_view metric) {
+  const auto found = std::ranges::find(cell.values, metric, &MetricValue::name);
+  return found == cell.values.end() ? "" : found->unit;
+}
+
+std::span<const double> series_of(const CellSummary& cell, std::string_view name) {
+  const auto found = std::ranges::find(cell.series, name, &MetricSeries::name);
+  if (found == cell.series.end()) return {};
+  return found->values;
+}
+
+std::vector<double> values_of(std::span<const CellRef> cells, std::string_view metric) {
+  std::vector<double> values;
+  for (const CellSummary& cell : cells) {
+    if (const auto value = value_of(cell, metric)) values.push_back(*value);
+  }
+  return values;
+}
+
+std::vector<std::vector<CellRef>> by_collision(std::span<const CellRef> cells) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> numbers;
+  std::vector<std::vector<CellRef>> collisions;
+  for (const CellSummary& cell : cells) {
+    const auto [place, is_new] =
+        numbers.try_emplace({cell.shape, cell.family, cell.scenario}, collisions.size());
+    if (is_new) collisions.emplace_back();
+    collisions[place->second].emplace_back(cell);
+  }
+  return collisions;
+}
+
+TableCell estimate(std::span<const CellRef> cells,
+                   const std::function<std::optional<double>(std::span<const CellRef>)>& statistic,
+                   const ReportInput& input, std::string_view name) {
+  const auto value = statistic(cells);
+  if (!value || !std::isfinite(*value)) return {};
+  const std::vector<std::vector<CellRef>> collisions = by_collision(cells);
+  const auto of_chosen = [&](std::span<const std::size_t> chosen) {
+    std::vector<CellRef> pooled;
+    for (const std::size_t c : chosen) {
+      pooled.insert(pooled.end(), collisions[c].begin(), collisions[c].end());
+    }
+    return statistic(pooled);
+  };
+  Random random(derive_seed(input.seed, {"report", name}));
+  const auto interval = cluster_bootstrap(collisions.size(), of_chosen, input.bootstrap, random);
+  if (!interval) return *value;
+  return Estimate{.value = *value, .low = interval->low, .high = interval->high};
+}
+
+TableCell estimated_mean(std::span<const CellRef> cells, std::string_view metric,
+                         const ReportInput& input) {
+  return estimate(
+      cells,
+      [&](std::span<const CellRef> chosen) -> std::optional<double> {
+        const std::vector<double> values = values_of(chosen, metric);
+        if (values.empty()) return std::nullopt;
+        return summarize(values).mean;
+      },
+      input, metric);
+}
+
+}  // namespace fracbench

@@ -1,0 +1,215 @@
+#include "reports/items/volume_distribution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "metrics/distribution_distance.h"
+#include "metrics/fragment_volumes.h"
+#include "metrics/mott.h"
+#include "metrics/summary.h"
+#include "reports/cell_groups.h"
+
+namespace fracbench {
+namespace {
+
+constexpr const char* kVolumeUnit = "V_body / 10";
+
+// The volumes of all fragments of these cells that are above the cut.
+std::vector<double> volumes_above(std::span<const CellRef> cells, double cut) {
+  std::vector<double> volumes;
+  for (const CellSummary& cell : cells) {
+    const std::vector<double> above = truncated(series_of(cell, "fragment_volume"), cut);
+    volumes.insert(volumes.end(), above.begin(), above.end());
+  }
+  return volumes;
+}
+
+// The methods of one shape, restricted to the cells that broke, and the volume that they share.
+struct ShapeVolumes {
+  std::string shape;
+  std::vector<CellGroup> methods;
+  double cut = 0;  // V_body / 10
+};
+
+std::vector<ShapeVolumes> volumes_by_shape(const ReportInput& input) {
+  std::vector<ShapeVolumes> result;
+  for (CellGroup& group : group_cells(input.cells)) {
+    group.cells = broken_cells(group.cells);
+    std::erase_if(group.cells, [](const CellSummary& cell) {
+      return series_of(cell, "fragment_volume").empty();
+    });
+    if (group.cells.empty()) continue;
+    if (result.empty() || result.back().shape != group.shape) result.push_back({group.shape, {}});
+    ShapeVolumes& shape = result.back();
+    for (const double minimum : values_of(group.cells, "minimum_volume_fraction")) {
+      shape.cut = std::max(shape.cut, kParentVolume * minimum);
+    }
+    shape.methods.push_back(std::move(group));
+  }
+  return result;
+}
+
+using Distance = std::function<double(const std::vector<double>& volumes, const Mott& law)>;
+
+// The distance of a sample to the law that is fitted to it, fitted anew in each resample.
+TableCell distance_to_law(const CellGroup& group, double cut, const ReportInput& input,
+                          std::string_view name, const Distance& distance) {
+  return estimate(
+      group.cells,
+      [&](std::span<const CellRef> cells) -> std::optional<double> {
+        const std::vector<double> volumes = volumes_above(cells, cut);
+        const auto law = Mott::fit(volumes, cut);
+        if (!law) return std::nullopt;
+        return distance(volumes, *law);
+      },
+      input, fmt::format("{} {} {}", group.shape, group.label, name));
+}
+
+Table mott_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& input) {
+  Table table{.name = "volume_distribution",
+              .title = "Fragment volumes against Mott's law",
+              .notes = {"The body's volume is 10. Only fragments above the cut are compared, and "
+                        "the laws are conditional on it. The mean of Mott's law is fitted to the "
+                        "fragments above the cut. KS: Kolmogorov-Smirnov distance; W: "
+                        "Wasserstein-1 distance, which is infinite to the law as printed "
+                        "(`docs/metrics.md`)."},
+              .columns = {{"shape"},
+                          {"method"},
+                          {"collisions"},
+                          {"fragments"},
+                          {"cut", kVolumeUnit},
+                          {"above cut"},
+                          {"mean of Mott's law", kVolumeUnit},
+                          {"KS to mott"},
+                          {"W to mott", kVolumeUnit},
+                          {"KS to mott-as-printed"}}};
+  for (const ShapeVolumes& shape : shapes) {
+    for (const CellGroup& group : shape.methods) {
+      const std::vector<double> all = volumes_above(group.cells, 0);
+      const std::vector<double> above = volumes_above(group.cells, shape.cut);
+      const auto mean = [&](std::span<const CellRef> cells) -> std::optional<double> {
+        const auto law = Mott::fit(volumes_above(cells, shape.cut), shape.cut);
+        return law ? std::optional(law->mean_volume) : std::nullopt;
+      };
+      const auto to_law = [&](std::string_view name, const Distance& distance) {
+        return distance_to_law(group, shape.cut, input, name, distance);
+      };
+      table.rows.push_back(
+          {shape.shape, group.label, static_cast<std::int64_t>(by_collision(group.cells).size()),
+           static_cast<std::int64_t>(all.size()), shape.cut,
+           static_cast<std::int64_t>(above.size()),
+           estimate(group.cells, mean, input, fmt::format("{} {} mean", shape.shape, group.label)),
+           to_law("ks",
+                  [](const auto& volumes, const Mott& law) {
+                    return kolmogorov_smirnov(volumes,
+                                              [&](double v) { return law.distribution(v); });
+                  }),
+           to_law("w",
+                  [](const auto& volumes, const Mott& law) { return wasserstein(volumes, law); }),
+           to_law("printed", [](const auto& volumes, const Mott& law) {
+             const MottAsPrinted printed{.mean_volume = law.mean_volume, .cut = law.cut};
+             return kolmogorov_smirnov(volumes, [&](double v) { return printed.distribution(v); });
+           })});
+    }
+  }
+  return table;
+}
+
+Table method_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& input) {
+  Table table{.name = "volume_distances",
+              .title = "Fragment volumes of two methods",
+              .notes = {"Above the same cut, with intervals from drawing whole collisions and "
+                        "taking the fragments of both methods."},
+              .columns = {{"shape"},
+                          {"method"},
+                          {"other method"},
+                          {"cut", kVolumeUnit},
+                          {"KS"},
+                          {"W", kVolumeUnit}}};
+  using Samples = std::function<double(const std::vector<double>&, const std::vector<double>&)>;
+  for (const ShapeVolumes& shape : shapes) {
+    for (std::size_t i = 0; i < shape.methods.size(); ++i) {
+      for (std::size_t j = i + 1; j < shape.methods.size(); ++j) {
+        const CellGroup& a = shape.methods[i];
+        const CellGroup& b = shape.methods[j];
+        std::vector<CellRef> both = a.cells;
+        both.insert(both.end(), b.cells.begin(), b.cells.end());
+        const auto between = [&](std::string_view name, const Samples& distance) {
+          return estimate(
+              both,
+              [&](std::span<const CellRef> cells) -> std::optional<double> {
+                std::vector<CellRef> of_a;
+                std::vector<CellRef> of_b;
+                for (const CellSummary& cell : cells) {
+                  (cell.label == a.label ? of_a : of_b).emplace_back(cell);
+                }
+                const std::vector<double> x = volumes_above(of_a, shape.cut);
+                const std::vector<double> y = volumes_above(of_b, shape.cut);
+                if (x.empty() || y.empty()) return std::nullopt;
+                return distance(x, y);
+              },
+              input, fmt::format("{} {} {} {}", shape.shape, a.label, b.label, name));
+        };
+        table.rows.push_back(
+            {shape.shape, a.label, b.label, shape.cut,
+             between("ks", [](const auto& x, const auto& y) { return kolmogorov_smirnov(x, y); }),
+             between("w", [](const auto& x, const auto& y) { return wasserstein(x, y); })});
+      }
+    }
+  }
+  return table;
+}
+
+// Share of fragments above each volume, for plots: of the sample and of both laws.
+Table curve_table(const std::vector<ShapeVolumes>& shapes) {
+  Table table{.name = "volume_curves",
+              .title = "Share of fragments above a volume",
+              .notes = {"One line for each of 200 volumes between the cut and the whole body, "
+                        "evenly spaced in the logarithm."},
+              .columns = {{"shape"},
+                          {"method"},
+                          {"volume", kVolumeUnit},
+                          {"measured"},
+                          {"mott"},
+                          {"mott-as-printed"}},
+              .in_text = false};
+  constexpr int points = 200;
+  for (const ShapeVolumes& shape : shapes) {
+    for (const CellGroup& group : shape.methods) {
+      const std::vector<double> volumes = sorted(volumes_above(group.cells, shape.cut));
+      const auto law = Mott::fit(volumes, shape.cut);
+      if (!law) continue;
+      const MottAsPrinted printed{.mean_volume = law->mean_volume, .cut = law->cut};
+      const double low = shape.cut > 0 ? shape.cut : volumes.front();
+      for (int k = 0; k < points; ++k) {
+        const double volume = low * std::pow(kParentVolume / low, k / (points - 1.0));
+        const auto above = volumes.end() - std::ranges::upper_bound(volumes, volume);
+        table.rows.push_back({shape.shape, group.label, volume,
+                              static_cast<double>(above) / static_cast<double>(volumes.size()),
+                              law->survival(volume), 1 - printed.distribution(volume)});
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+ReportItemInfo VolumeDistribution::info() const {
+  return {.name = "volume_distribution", .title = "Fragment volumes"};
+}
+
+ReportSection VolumeDistribution::render(const ReportInput& input) const {
+  const std::vector<ShapeVolumes> shapes = volumes_by_shape(input);
+  ReportSection section;
+  for (Table& table : std::vector<Table>{mott_table(shapes, input), method_table(shapes, input),
+                                         curve_table(shapes)}) {
+    if (!table.rows.empty()) section.tables.push_back(std::move(table));
+  }
+  return section;
+}
+
+}  // namespace fracbench

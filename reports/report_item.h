@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/cell_summary.h"
+#include "metrics/cluster_bootstrap.h"
+#include "reports/table.h"
+
+namespace fracbench {
+
+/// Everything that a report is made from: the cells of a results folder, in the order of its plan.
+struct ReportInput {
+  std::string title = {};  ///< such as the suite's name
+  std::vector<CellSummary> cells = {};
+  /// Lines about where the results come from (program, machine, suite), shown under the title.
+  std::vector<std::string> provenance = {};
+  BootstrapOptions bootstrap = {};
+  std::uint64_t seed = 0;  ///< of the resampling; the same input and seed give the same bytes
+};
+
+struct ReportItemInfo {
+  std::string name;
+  std::string title;  ///< of its section
+};
+
+/// A section of the report: one table or figure and what belongs to it.
+struct ReportSection {
+  std::vector<std::string> paragraphs;
+  std::vector<Table> tables;  ///< empty: there is nothing to show, and the section is left out
+};
+
+/// A table or figure of the report. Stateless, without input or output of its own; adding one is a
+/// file pair below items/ and a line in report_items.cpp.
+class ReportItem {
+ public:
+  virtual ~ReportItem() = default;
+  virtual ReportItemInfo info() const = 0;
+  virtual ReportSection render(const ReportInput& input) const = 0;
+};
+
+}  // namespace fracbench

@@ -1,0 +1,28 @@
+#include "reports/report_items.h"
+
+#include "reports/items/errata_table.h"
+#include "reports/items/fracture_surfaces.h"
+#include "reports/items/fragment_counts.h"
+#include "reports/items/overview.h"
+#include "reports/items/stage_times_table.h"
+#include "reports/items/validity_table.h"
+#include "reports/items/volume_distribution.h"
+
+namespace fracbench {
+
+const std::vector<std::unique_ptr<ReportItem>>& report_items() {
+  static const auto all = [] {
+    std::vector<std::unique_ptr<ReportItem>> list;
+    list.push_back(std::make_unique<Overview>());
+    list.push_back(std::make_unique<ValidityTable>());
+    list.push_back(std::make_unique<FragmentCounts>());
+    list.push_back(std::make_unique<VolumeDistribution>());
+    list.push_back(std::make_unique<FractureSurfaces>());
+    list.push_back(std::make_unique<StageTimesTable>());
+    list.push_back(std::make_unique<ErrataTable>());
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace fracbench

@@ -1,0 +1,62 @@
+#include "reports/write_report.h"
+
+#include <fmt/format.h>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "reports/raw_data.h"
+#include "reports/report_items.h"
+
+namespace fracbench {
+
+std::vector<ReportFile> render_report(const ReportInput& input) {
+  std::vector<ReportFile> files;
+  std::string text = fmt::format("# {}\n", input.title.empty() ? "Report" : input.title);
+  for (const std::string& line : input.provenance) text += fmt::format("\n- {}", line);
+  if (!input.provenance.empty()) text += '\n';
+  text += fmt::format(
+      "\nIntervals in brackets hold {:g} % and come from {} resamples of whole collisions. Each "
+      "table is a CSV file beside this one; every value of every cell is in "
+      "[cells.csv](cells.csv), "
+      "the volume of every fragment in [volumes.csv](volumes.csv).\n",
+      100 * input.bootstrap.confidence, input.bootstrap.resamples);
+  if (input.cells.empty()) text += "\nThere are no cells to report on.\n";
+  const auto add_csv = [&](const Table& table) {
+    files.push_back({table.name + ".csv", to_csv(table)});
+  };
+  for (const auto& item : report_items()) {
+    const ReportSection section = item->render(input);
+    if (section.tables.empty()) continue;
+    text += fmt::format("\n## {}\n", item->info().title);
+    for (const std::string& paragraph : section.paragraphs)
+      text += fmt::format("\n{}\n", paragraph);
+    for (const Table& table : section.tables) {
+      add_csv(table);
+      text += fmt::format("\n### {}\n", table.title);
+      for (const std::string& note : table.notes) text += fmt::format("\n{}\n", note);
+      if (table.in_text) text += fmt::format("\n{}", to_markdown(table));
+      text += fmt::format("\n[{0}.csv]({0}.csv)\n", table.name);
+    }
+  }
+  add_csv(cells_table(input));
+  add_csv(volumes_table(input));
+  files.push_back({"report.md", std::move(text)});
+  return files;
+}
+
+std::filesystem::path write_report(const ReportInput& input, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("{}: the folder for the report cannot be made: {}",
+                                 folder.string(), error.message()));
+  }
+  std::filesystem::path last;
+  for (const ReportFile& file : render_report(input)) {
+    last = folder / file.name;
+    write_file_atomically(last, file.bytes);
+  }
+  return last;
+}
+
+}  // namespace fracbench

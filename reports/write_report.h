@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/report_item.h"
+
+namespace fracbench {
+
+/// A report as files, by name.
+struct ReportFile {
+  std::string name;
+  std::string bytes;
+};
+
+/// report.md with the sections of all items, a CSV file for each table, and the raw data cells.csv
+/// and volumes.csv. The same input gives the same bytes.
+std::vector<ReportFile> render_report(const ReportInput& input);
+
+/// Writes them below `folder`, which is made where it is missing; each file appears whole or not at
+/// all, report.md last. Returns its path. Throws InputError where it cannot be written.
+std::filesystem::path write_report(const ReportInput& input, const std::filesystem::path& folder);
+
+}  // namespace fracbench

@@ -1,0 +1,179 @@
+#include "reports/report_items.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "synthetic_cells.h"
+
+namespace fracbench {
+namespace {
+
+using namespace synthetic;
+
+double number(const TableCell& cell) {
+  if (const auto* e = std::get_if<Estimate>(&cell)) return e->value;
+  if (const auto* i = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*i);
+  return std::get<double>(cell);
+}
+
+TEST(ReportItems, have_unique_names_titles_and_table_names) {
+  std::set<std::string> names;
+  std::set<std::string> tables{"cells", "volumes"};
+  for (const auto& item : report_items()) {
+    EXPECT_TRUE(names.insert(item->info().name).second);
+    EXPECT_FALSE(item->info().title.empty());
+    for (const Table& table : item->render(two_methods(4, true)).tables) {
+      EXPECT_TRUE(tables.insert(table.name).second) << table.name;
+      for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
+    }
+  }
+}
+
+TEST(ReportItems, take_nothing_single_cells_and_failed_cells) {
+  ReportInput one{.title = "", .cells = {broken_cell("cvd", "pot", 0, {4, 6})}};
+  ReportInput failed{.title = "",
+                     .cells = {failed_cell("cvd", "pot", 0, CellStatus::crash, "signal 11")}};
+  ReportInput whole{.title = "", .cells = {broken_cell("cvd", "pot", 0, {10})}};
+  whole.cells[0].status = CellStatus::unbroken;
+  for (const ReportInput& input : {ReportInput{}, one, failed, whole}) {
+    for (const auto& item : report_items()) EXPECT_NO_THROW(item->render(input));
+  }
+}
+
+TEST(Overview, counts_each_status_and_says_why) {
+  ReportInput input = two_methods(3, false);
+  input.cells.push_back(failed_cell("fine", "squirrel", 8, CellStatus::invalid, "not closed"));
+  input.cells.push_back(failed_cell("fine", "squirrel", 9, CellStatus::invalid, "not closed"));
+  input.cells.push_back(failed_cell("fine", "pot", 9, CellStatus::unbroken, ""));
+  const ReportSection overview = section(input, "overview");
+  const Table cells = table(overview, "overview");
+  ASSERT_EQ(cells.rows.size(), 3u);
+  EXPECT_EQ(at(cells, 0, "method"), TableCell(std::string("fine")));
+  EXPECT_EQ(number(at(cells, 0, "cells")), 5);
+  EXPECT_EQ(number(at(cells, 0, "ok")), 3);
+  EXPECT_EQ(number(at(cells, 0, "invalid")), 2);
+  EXPECT_EQ(number(at(cells, 2, "unbroken")), 1);
+  const Table reasons = table(overview, "reasons");
+  ASSERT_EQ(reasons.rows.size(), 1u);
+  EXPECT_EQ(number(at(reasons, 0, "cells")), 2);
+  EXPECT_EQ(at(reasons, 0, "reason"), TableCell(std::string("not closed")));
+}
+
+TEST(FragmentCountsItem, pools_collisions_that_broke_the_body) {
+  ReportInput input{.title = ""};
+  for (int i = 0; i < 10; ++i) {
+    input.cells.push_back(broken_cell("cvd", "pot", i, std::vector<double>(10 + i % 3, 0.5)));
+  }
+  input.cells.push_back(broken_cell("cvd", "pot", 11, {10}));
+  input.cells.back().status = CellStatus::unbroken;
+  const Table counts = table(section(input, "fragment_counts"), "fragment_counts");
+  ASSERT_EQ(counts.rows.size(), 1u);
+  EXPECT_EQ(number(at(counts, 0, "collisions")), 10);
+  EXPECT_NEAR(number(at(counts, 0, "mean")), 10.9, 1e-12);
+  EXPECT_EQ(number(at(counts, 0, "most")), 12);
+  const auto mean = std::get<Estimate>(at(counts, 0, "mean"));
+  EXPECT_LT(mean.low, 10.9);
+  EXPECT_GT(mean.high, 10.9);
+}
+
+TEST(FragmentCountsItem, repeats_of_one_collision_are_one_cluster) {
+  // Ten repeats of two collisions say no more about other collisions than one of each.
+  ReportInput input{.title = ""};
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    input.cells.push_back(broken_cell("cvd", "pot", 0, std::vector<double>(5, 2)));
+    input.cells.push_back(broken_cell("cvd", "pot", 1, std::vector<double>(15, 0.5)));
+  }
+  const Table counts = table(section(input, "fragment_counts"), "fragment_counts");
+  EXPECT_EQ(number(at(counts, 0, "collisions")), 2);
+  const auto mean = std::get<Estimate>(at(counts, 0, "mean"));
+  EXPECT_EQ(mean.low, 5);
+  EXPECT_EQ(mean.high, 15);
+}
+
+TEST(VolumeDistribution, finds_the_law_and_tells_two_methods_apart) {
+  const ReportSection same = section(two_methods(40, false), "volume_distribution");
+  const ReportSection other = section(two_methods(40, true), "volume_distribution");
+  const Table mott = table(other, "volume_distribution");
+  ASSERT_EQ(mott.rows.size(), 2u);
+  EXPECT_NEAR(number(at(mott, 0, "cut")), 0.01, 1e-15);
+  EXPECT_NEAR(number(at(mott, 0, "mean of Mott's law")), 0.6, 0.1);
+  EXPECT_NEAR(number(at(mott, 1, "mean of Mott's law")), 2.4, 0.5);
+  EXPECT_LT(number(at(mott, 0, "KS to mott")), 0.06);
+  EXPECT_GT(number(at(mott, 0, "KS to mott-as-printed")), 0.8);
+  const auto w_same = std::get<Estimate>(at(table(same, "volume_distances"), 0, "W"));
+  const auto w_other = std::get<Estimate>(at(table(other, "volume_distances"), 0, "W"));
+  // The conditional means above the cut differ by about 4 * 0.6 - 0.6.
+  EXPECT_NEAR(w_other.value, 2, 0.6);
+  EXPECT_LT(w_same.value, 0.25);
+  EXPECT_LT(w_same.high, w_other.low);
+}
+
+TEST(VolumeDistribution, cut_is_the_coarsest_of_the_methods_and_changes_what_is_compared) {
+  ReportInput input = two_methods(10, false);
+  for (CellSummary& cell : input.cells) {
+    if (cell.label == "coarse") cell.values[2].value = 0.05;
+  }
+  const Table mott = table(section(input, "volume_distribution"), "volume_distribution");
+  for (const std::size_t row : {0u, 1u}) {
+    EXPECT_DOUBLE_EQ(number(at(mott, row, "cut")), 0.5);
+    EXPECT_LT(number(at(mott, row, "above cut")), 0.5 * number(at(mott, row, "fragments")));
+  }
+}
+
+TEST(VolumeDistribution, curves_fall_from_one_to_nothing) {
+  const Table curves =
+      table(section(two_methods(10, false), "volume_distribution"), "volume_curves");
+  EXPECT_FALSE(curves.in_text);
+  ASSERT_EQ(curves.rows.size(), 400u);
+  EXPECT_EQ(number(at(curves, 0, "measured")), 1);
+  EXPECT_NEAR(number(at(curves, 0, "mott")), 1, 1e-12);
+  EXPECT_NEAR(number(at(curves, 199, "volume")), 10, 1e-12);
+  for (std::size_t row = 1; row < 200; ++row) {
+    for (const char* column : {"measured", "mott", "mott-as-printed"}) {
+      EXPECT_LE(number(at(curves, row, column)), number(at(curves, row - 1, column)));
+    }
+  }
+}
+
+TEST(ValidityItem, shows_the_worst_case_of_cells_that_are_invalid_too) {
+  ReportInput input = two_methods(3, false);
+  CellSummary bad = broken_cell("fine", "squirrel", 7, {5, 4});
+  bad.status = CellStatus::invalid;
+  for (MetricValue& value : bad.values) {
+    if (value.name == "volume_ratio") value.value = 0.9;
+    if (value.name == "valid" || value.name == "closed") value.value = 0;
+  }
+  input.cells.push_back(bad);
+  const Table validity = table(section(input, "validity"), "validity");
+  EXPECT_EQ(number(at(validity, 0, "cells")), 4);
+  EXPECT_EQ(number(at(validity, 0, "valid")), 3);
+  EXPECT_EQ(number(at(validity, 0, "disjoint")), 4);
+  EXPECT_NEAR(number(at(validity, 0, "worst volume error")), 0.1, 1e-15);
+  EXPECT_EQ(number(at(validity, 1, "worst volume error")), 0);
+}
+
+TEST(StageTimesItem, adds_up_and_stands_beside_what_was_published) {
+  ReportInput input = two_methods(3, false);
+  for (CellSummary& cell : input.cells) {
+    if (cell.label == "coarse") cell.label = "bem";
+    cell.stages.push_back({"simulation", 0.01});
+  }
+  input.cells[0].total_seconds = 2;
+  const ReportSection times = section(input, "stage_times");
+  const Table stages = table(times, "stage_times");
+  EXPECT_EQ(stages.rows.size(), 8u);
+  EXPECT_NEAR(number(at(stages, 1, "mean")), 0.75, 1e-15);
+  const Table machine = table(times, "machine");
+  EXPECT_EQ(number(at(machine, 0, "cells that do not add up")), 1);
+  EXPECT_EQ(number(at(machine, 1, "cells that do not add up")), 0);
+  const Table published = table(times, "published_times");
+  EXPECT_EQ(published.rows.size(), 17u);  // of squirrel
+  EXPECT_EQ(at(published, 0, "printed"), TableCell(std::string("15.5 min")));
+  EXPECT_NEAR(number(at(published, 0, "measured")), 0.01, 1e-15);
+  EXPECT_EQ(at(published, 1, "measured"), TableCell());
+  EXPECT_EQ(at(published, 0, "verdict"), TableCell(std::string("not-comparable")));
+}
+
+}  // namespace
+}  // namespace fracbench
