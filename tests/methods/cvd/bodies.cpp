@@ -3,39 +3,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "geometry/measures.h"
+#include "geometry/read_mesh.h"
 
 namespace fracbench::test {
-
-namespace {
-
-TriangleMesh read_obj(const std::filesystem::path& file) {
-  TriangleMesh mesh;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      double x, y, z;
-      words >> x >> y >> z;
-      mesh.vertices.emplace_back(x, y, z);
-    } else if (kind == "f") {
-      std::vector<int> corners;
-      for (std::string word; words >> word;) corners.push_back(std::stoi(word) - 1);
-      for (std::size_t n = 1; n + 1 < corners.size(); ++n) {
-        mesh.faces.push_back({corners[0], corners[n], corners[n + 1]});
-      }
-    }
-  }
-  return mesh;
-}
-
-}  // namespace
 
 TriangleMesh boxes(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
   const auto filled = [&](int i, int j, int k) {
@@ -145,7 +118,7 @@ std::vector<Body> filed_bodies() {
   for (const char* name : {"squirrel", "base", "mug", "pot_standin", "spot", "bunny"}) {
     const auto file = std::filesystem::path(FRACBENCH_SOURCE_DIR) / "../shared/meshes" /
                       (std::string(name) + ".obj");
-    if (std::filesystem::exists(file)) bodies.push_back({name, read_obj(file)});
+    if (std::filesystem::exists(file)) bodies.push_back({name, read_mesh(file)});
   }
   return bodies;
 }

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "geometry/measures.h"
 #include "methods/registry.h"
+#include "scenarios/shapes.h"
 #include "tests/methods/cvd/bodies.h"
 #include "tests/methods/cvd/break_body.h"
 #include "tests/methods/cvd/check_pieces.h"
@@ -45,6 +46,15 @@ TEST(Cvd, DividesFiledBodiesIntoClosedPiecesThatKeepTheirSurface) {
   }
 }
 
+TEST(Cvd, DividesEveryGeneratedShapeIntoClosedPiecesThatKeepItsSurface) {
+  for (const ShapeInfo& shape : list_shapes()) {
+    if (shape.source != "generated") continue;
+    SCOPED_TRACE(shape.name);
+    const TriangleMesh mesh = load_shape({.name = shape.name}).mesh;
+    expect_partition(mesh, break_body(mesh, {sites(25), 7}));
+  }
+}
+
 TEST(Cvd, DividesBodiesWhoseVerticesLieOnTheBisectors) {
   // Sites in mirror pairs: the cells' faces pass through vertices, along edges and along faces.
   const std::vector<double> octants{-0.5, -0.5, -0.5, 0.5,  -0.5, -0.5, -0.5, 0.5,
@@ -55,6 +65,24 @@ TEST(Cvd, DividesBodiesWhoseVerticesLieOnTheBisectors) {
     expect_partition(body.mesh, break_body(body.mesh, {sites_at(octants)}));
     expect_partition(body.mesh, break_body(body.mesh, {sites_at({-0.5, 0, 0, 0.5, 0, 0})}));
     expect_partition(body.mesh, break_body(body.mesh, {sites_at({0, 0, 0, 1.9 - 1.9 / 7, 0, 0})}));
+  }
+}
+
+TEST(Cvd, DividesTurnedBodiesWhoseVerticesLieOnTheBisectorsButForRounding) {
+  // A grid of sites: eight cells meet at each corner, up to rounding.
+  std::vector<double> grid;
+  for (const double x : {-0.5, 0.0, 0.5}) {
+    for (const double y : {-0.5, 0.0, 0.5}) {
+      for (const double z : {-0.5, 0.0, 0.5}) {
+        const Vec3 p = kTilt * Vec3(x, y, z);
+        grid.insert(grid.end(), {p[0], p[1], p[2]});
+      }
+    }
+  }
+  for (const Body& body : generated_bodies()) {
+    SCOPED_TRACE(body.name);
+    const TriangleMesh turned = rotated(body.mesh, kTilt);
+    expect_partition(turned, break_body(turned, {sites_at(grid)}));
   }
 }
 
