@@ -22,9 +22,10 @@ constexpr int kSolverIterations = 50;
 // nothing jumps.
 constexpr double kOverlapCorrection = 0.2;
 // How far two solids that are near each other may move within one engine step, as share of the
-// target's size: the depth that they can overlap by before they are stopped.
+// target's size: the depth that they can overlap by before they are stopped. No step is shorter
+// than what was asked for over kMaxSteps.
 constexpr double kStepShare = 0.02;
-constexpr int kMaxSteps = 12;
+constexpr int kMaxSteps = 16;
 // First touches that time is cut at within one call; those beyond are found with some overlap.
 constexpr int kMaxTouches = 12;
 
@@ -137,7 +138,8 @@ struct RigidWorld::State {
   }
 
   int add(std::unique_ptr<Body> body, const Material& material, const BodyState& state);
-  double steps_for_solids(double seconds) const;
+  double longest_step(double seconds) const;
+  double fastest_ball() const;
   std::optional<double> next_touch(double seconds) const;
   void step(double seconds, std::vector<BodyContact>& contacts);
   BodyState state_of(const Body& body) const;
@@ -181,28 +183,35 @@ BodyState RigidWorld::State::state_of(const Body& body) const {
           .angular_velocity = from_bullet(body.rigid->getAngularVelocity())};
 }
 
-/// How many engine steps `seconds` must be cut into, so that solids that may meet do not pass
+/// How long an engine step within `seconds` may be, so that solids that may meet do not pass
 /// through each other.
-double RigidWorld::State::steps_for_solids(double seconds) const {
-  double farthest = 0;
+double RigidWorld::State::longest_step(double seconds) const {
+  double fastest = 0;
   for (auto a = bodies.begin(); a != bodies.end(); ++a) {
     if (a->second->is_ball()) continue;
     for (auto b = std::next(a); b != bodies.end(); ++b) {
       if (b->second->is_ball()) continue;
       const btRigidBody& first = *a->second->rigid;
       const btRigidBody& second = *b->second->rigid;
-      const double way =
-          seconds * ((first.getLinearVelocity() - second.getLinearVelocity()).length() +
-                     first.getAngularVelocity().length() * a->second->reach +
-                     second.getAngularVelocity().length() * b->second->reach);
+      const double speed = (first.getLinearVelocity() - second.getLinearVelocity()).length() +
+                           first.getAngularVelocity().length() * a->second->reach +
+                           second.getAngularVelocity().length() * b->second->reach;
       const double gap =
           (first.getWorldTransform().getOrigin() - second.getWorldTransform().getOrigin())
               .length() -
           a->second->reach - b->second->reach;
-      if (gap < way) farthest = std::max(farthest, way);
+      if (gap < speed * seconds) fastest = std::max(fastest, speed);
     }
   }
-  return std::clamp(std::ceil(farthest / (kStepShare * size)), 1.0, double{kMaxSteps});
+  return fastest * seconds > kStepShare * size ? kStepShare * size / fastest : seconds;
+}
+
+double RigidWorld::State::fastest_ball() const {
+  double fastest = 0;
+  for (const auto& [id, body] : bodies) {
+    if (body->is_ball()) fastest = std::max(fastest, body->rigid->getLinearVelocity().length());
+  }
+  return fastest;
 }
 
 std::optional<double> RigidWorld::State::next_touch(double seconds) const {
@@ -346,15 +355,24 @@ void RigidWorld::restore(const Snapshot& snapshot) {
 
 std::vector<BodyContact> RigidWorld::advance(double seconds) {
   std::vector<BodyContact> contacts;
-  const double longest = seconds / state_->steps_for_solids(seconds);
+  const double shortest = seconds / kMaxSteps;
   double left = seconds;
   int touches = 0;
+  bool ball_touches = false;
   while (left > 1e-9 * seconds) {
+    double longest = state_->longest_step(left);
+    // The solid that a ball touches leaves this step at about the ball's speed.
+    if (ball_touches && state_->bodies.size() > 2) {
+      longest = std::min(longest, kStepShare * state_->size / state_->fastest_ball());
+    }
+    longest = std::max(longest, shortest);
     // A rest that is much shorter than a step would be lost to rounding.
     double span = left < 1.0001 * longest ? left : longest;
+    ball_touches = false;
     if (touches < kMaxTouches) {
       if (const auto touch = state_->next_touch(span)) {
         ++touches;
+        ball_touches = true;
         span = *touch;
       }
     }
