@@ -52,8 +52,7 @@ std::vector<PlannedScenario> make_scenarios(const Suite& suite, const SuiteShape
     const std::uint64_t seed =
         derive_seed(suite.seed, {"scenes", shape.request.name, entry.family});
     for (Scenario& scenario : family.scenes(entry.options, shape.request.name, seed)) {
-      std::string name =
-          entry.label == entry.family ? scenario.name : entry.label + "/" + scenario.name;
+      std::string name = entry.label + "-" + scenario.name;
       result.push_back({std::move(name), std::move(scenario)});
     }
   }

@@ -29,7 +29,7 @@ struct PlanOptions {
 };
 
 struct PlannedScenario {
-  std::string name;  ///< that of the scene, after the suite's label where it has one of its own
+  std::string name;  ///< the suite's label and that of the scene: "single-0003"
   Scenario scenario;
 };
 

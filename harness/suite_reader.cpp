@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -103,13 +104,23 @@ std::vector<Entry> read_entries(const Entry& top, std::string_view kind) {
   return entries;
 }
 
+/// Files are named relative to the suite, or to the user's folder of shapes.
+std::string resolved(const std::string& name, const std::filesystem::path& source) {
+  constexpr std::string_view kShapes = "$FRACBENCH_SHAPES/";
+  if (name.starts_with(kShapes)) {
+    const char* folder = std::getenv("FRACBENCH_SHAPES");
+    return folder ? (std::filesystem::path(folder) / name.substr(kShapes.size())).string() : name;
+  }
+  const std::filesystem::path beside = source.parent_path() / name;
+  return !name.empty() && std::filesystem::exists(beside) ? beside.string() : name;
+}
+
 SuiteShape make_shape(std::string name, const Options& options,
                       const std::filesystem::path& source) {
   SuiteShape shape;
-  const std::filesystem::path beside = source.parent_path() / name;
   const bool is_path = name.find_first_of("./") != std::string::npos;
   shape.label = is_path ? std::filesystem::path(name).stem().string() : name;
-  shape.request.name = is_path && std::filesystem::exists(beside) ? beside.string() : name;
+  shape.request.name = is_path ? resolved(name, source) : name;
   shape.request.resolution = static_cast<int>(options.integer("resolution"));
   shape.request.longest_side = options.number("longest_side");
   return shape;
@@ -148,9 +159,17 @@ std::vector<SuiteScenario> read_scenarios(const Entry& top, const Catalog& catal
     const std::string family = require_text(entry, "family", "single");
     const ScenarioFamily& known = catalog.family(family, entry.where(*entry.table.get("family")));
     entry.what = fmt::format("scenario '{}'", family);
+    const OptionsSchema schema = known.options();
+    OptionMap values = read_options(entry, schema, {"family", "label"}).values();
+    for (const char* name : {"file", "path"}) {
+      const auto found = values.find(name);
+      if (found == values.end()) continue;
+      if (auto* file = std::get_if<std::string>(&found->second))
+        *file = resolved(*file, top.source);
+    }
     scenarios.push_back({.label = read_text(entry, "label").value_or(family),
                          .family = family,
-                         .options = read_options(entry, known.options(), {"family", "label"})});
+                         .options = Options(schema, values, entry.where())});
   }
   return scenarios;
 }

@@ -157,13 +157,19 @@ TEST_F(RunnerTest, ACollisionWithoutABreakIsAResult) {
 
 TEST_F(RunnerTest, StageTimesAddUpToTheTotalWithinTwoPercent) {
   run(plan_with({"method.*.wait=0.01"}));
+  double unnamed = 0;
+  double total = 0;
   for (const CellSummary& cell : read_summaries(folder)) {
     double sum = 0;
     for (const StageTime& stage : cell.stages) sum += stage.seconds;
     EXPECT_NEAR(sum / cell.total_seconds, 1, 0.02);
+    EXPECT_EQ(cell.stages[0].name, "other");
+    unnamed += cell.stages[0].seconds;
+    total += cell.total_seconds;
     EXPECT_GT(cell.total_seconds, 0.01);
     EXPECT_GT(cell.peak_memory, 1e6);
   }
+  EXPECT_LT(unnamed, 0.1 * total) << "time in no stage of its own";
 }
 
 TEST_F(RunnerTest, ADamagedRecordIsSetAsideAndMeasuredAgain) {

@@ -137,7 +137,7 @@ class Shove : public ScenarioFamily {
     std::vector<Scenario> result;
     for (int k = 0; k < options.integer("count"); ++k) {
       Scenario scenario;
-      scenario.name = "shove-" + std::to_string(k);
+      scenario.name = std::to_string(k);
       scenario.family = "shove";
       Random random = Random(seed).fork(scenario.name);
       scenario.balls.push_back({.position = 3 * random.unit_vector(),
