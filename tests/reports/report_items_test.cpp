@@ -101,12 +101,19 @@ TEST(VolumeDistribution, finds_the_law_and_tells_two_methods_apart) {
   EXPECT_NEAR(number(at(mott, 1, "mean of Mott's law")), 2.4, 0.5);
   EXPECT_LT(number(at(mott, 0, "KS to mott")), 0.06);
   EXPECT_GT(number(at(mott, 0, "KS to mott-as-printed")), 0.8);
-  const auto w_same = std::get<Estimate>(at(table(same, "volume_distances"), 0, "W"));
-  const auto w_other = std::get<Estimate>(at(table(other, "volume_distances"), 0, "W"));
+  const Table distances = table(other, "volume_distances");
+  ASSERT_EQ(distances.rows.size(), 3u);
+  const auto w_same = std::get<Estimate>(at(table(same, "volume_distances"), 1, "W"));
+  const auto w_other = std::get<Estimate>(at(distances, 1, "W"));
   // The conditional means above the cut differ by about 4 * 0.6 - 0.6.
   EXPECT_NEAR(w_other.value, 2, 0.6);
   EXPECT_LT(w_same.value, 0.25);
   EXPECT_LT(w_same.high, w_other.low);
+  // Chance alone makes a small distance.
+  EXPECT_EQ(at(distances, 0, "other"), TableCell(std::string("(its other half)")));
+  EXPECT_GT(number(at(distances, 0, "W")), 0);
+  EXPECT_LT(number(at(distances, 0, "W")), 0.4);
+  EXPECT_LT(number(at(distances, 0, "KS")), 0.15);
 }
 
 TEST(VolumeDistribution, cut_is_the_coarsest_of_the_methods_and_changes_what_is_compared) {
