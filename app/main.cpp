@@ -1,1 +1,75 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "core/error.h"
+#include "harness/provenance.h"
+
+namespace {
+
+constexpr const char* kAbout =
+    "Breaks the same shapes under the same impacts with different fracture methods, and measures\n"
+    "the fragments.\n";
+
+constexpr const char* kFooter =
+    "\nFirst steps:\n"
+    "  fracbench fracture cvd bunny --ball 3,0,0,-60,0,0 --out broken    break one shape\n"
+    "  fracbench run quick --out results                                 measure a suite\n"
+    "  fracbench report results                                          read the outcome\n"
+    "\nExit codes: 0 good, 1 internal error, 2 usage or bad input, 3 regression found,\n"
+    "4 nothing or not everything was measured, 5 baseline missing or not comparable.\n";
+
+int run_program(int argc, char** argv, std::stop_token stop) {
+  using namespace fracbench;
+  CLI::App app(kAbout, "fracbench");
+  app.footer(kFooter);
+  app.set_version_flag("--version", program_version());
+  app.require_subcommand(1);
+
+  Action chosen;
+  add_run_command(app, chosen);
+  add_report_command(app, chosen);
+  add_fracture_command(app, chosen);
+  add_score_command(app, chosen);
+  add_list_command(app, chosen);
+  add_doctor_command(app, chosen);
+
+  if (argc == 1) {
+    fmt::print(stderr, "{}", app.help());
+    return kBadInput;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kGood : kBadInput;
+  }
+  return chosen(stop);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace fracbench;
+  const Interrupt interrupt;
+  try {
+    return run_program(argc, argv, interrupt.token());
+  } catch (const InputError& error) {
+    fmt::print(stderr, "fracbench: {}\n", error.what());
+    return kBadInput;
+  } catch (const MethodFailure& error) {
+    fmt::print(stderr, "fracbench: the method failed: {}\n", error.what());
+    return kIncomplete;
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "fracbench: stopped before it was done\n");
+    return kIncomplete;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "fracbench: out of memory\n");
+    return kIncomplete;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fracbench: internal error: {}\n", error.what());
+    return kInternalError;
+  }
+}

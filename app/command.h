@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <stop_token>
+
+namespace fracbench {
+
+/// Exit codes that scripts may rely on.
+enum ExitCode : int {
+  kGood = 0,
+  kInternalError = 1,
+  kBadInput = 2,     ///< usage or input
+  kRegression = 3,
+  kIncomplete = 4,   ///< nothing or not everything was measured
+  kNoBaseline = 5,   ///< missing or not comparable
+};
+
+/// What the chosen subcommand does: given the token that Ctrl-C sets off, returns the exit code.
+using Action = std::function<int(std::stop_token)>;
+
+/// Each adds one subcommand; when the user chooses it, `chosen` becomes what it does.
+void add_run_command(CLI::App& app, Action& chosen);
+void add_report_command(CLI::App& app, Action& chosen);
+void add_fracture_command(CLI::App& app, Action& chosen);
+void add_score_command(CLI::App& app, Action& chosen);
+void add_list_command(CLI::App& app, Action& chosen);
+void add_doctor_command(CLI::App& app, Action& chosen);
+
+/// Prints one JSON value on standard output. Throws std::logic_error for a number that JSON does
+/// not have (NaN, infinity).
+void print_json(const nlohmann::ordered_json& value);
+
+}  // namespace fracbench
