@@ -11,10 +11,10 @@ namespace fracbench {
 enum ExitCode : int {
   kGood = 0,
   kInternalError = 1,
-  kBadInput = 2,     ///< usage or input
+  kBadInput = 2,  ///< usage or input
   kRegression = 3,
-  kIncomplete = 4,   ///< nothing or not everything was measured
-  kNoBaseline = 5,   ///< missing or not comparable
+  kIncomplete = 4,  ///< nothing or not everything was measured
+  kNoBaseline = 5,  ///< missing or not comparable
 };
 
 /// What the chosen subcommand does: given the token that Ctrl-C sets off, returns the exit code.

@@ -50,9 +50,8 @@ Json list_scenarios() {
   Json list = Json::array();
   for (const auto& family : scenario_families()) {
     const FamilyInfo info = family->info();
-    list.push_back({{"name", info.name},
-                    {"summary", info.summary},
-                    {"options", to_json(family->options())}});
+    list.push_back(
+        {{"name", info.name}, {"summary", info.summary}, {"options", to_json(family->options())}});
   }
   return list;
 }
