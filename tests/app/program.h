@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace fracbench {
+
+/// What the program answered to one call.
+struct Answer {
+  int exit_code = -1;  ///< negative: killed by that signal
+  std::string output;
+  std::string errors;
+
+  nlohmann::json json() const { return nlohmann::json::parse(output); }
+};
+
+/// Runs the built `fracbench` with these arguments, as a shell would split them, in `folder`.
+Answer call(const std::string& arguments, const std::filesystem::path& folder);
+
+/// An empty folder that is removed at the end of the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file in the folder and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& content) const;
+  std::string read(const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace fracbench
