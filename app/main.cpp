@@ -6,7 +6,7 @@
 #include "app/command.h"
 #include "app/interrupt.h"
 #include "core/error.h"
-#include "harness/provenance.h"
+#include "harness/build_info.h"
 
 namespace {
 
@@ -26,7 +26,11 @@ int run_program(int argc, char** argv, std::stop_token stop) {
   using namespace fracbench;
   CLI::App app(kAbout, "fracbench");
   app.footer(kFooter);
-  app.set_version_flag("--version", program_version());
+  app.set_version_flag("--version", [] {
+    const BuildInfo& build = build_info();
+    return fmt::format("fracbench {} ({}{})", build.version, build.revision,
+                       build.dirty ? ", with changes" : "");
+  });
   app.require_subcommand(1);
 
   Action chosen;

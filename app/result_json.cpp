@@ -40,7 +40,7 @@ void require_finite(const Json& value) {
 
 }  // namespace
 
-Json result_json(const std::string& status, const CellResult& cell) {
+Json result_json(const CellResult& cell) {
   Measurement all;
   Json by_metric = Json::object();
   for (const auto& metric : metrics()) {
@@ -51,12 +51,13 @@ Json result_json(const std::string& status, const CellResult& cell) {
     all.values.insert(all.values.end(), measured.values.begin(), measured.values.end());
     all.series.insert(all.series.end(), measured.series.begin(), measured.series.end());
   }
+  const Json valid = truth_of(all, "valid");
   Json result;
-  result["status"] = status;
+  result["status"] = valid == false ? "invalid" : cell.fragments.size() < 2 ? "unbroken" : "ok";
   result["fragment_count"] = cell.fragments.size();
   for (const char* name : {"volume_ratio", "surface_retention"}) result[name] = value_of(all, name);
   for (const char* name : {"closed", "disjoint"}) result[name] = truth_of(all, name);
-  const auto volumes = std::ranges::find(all.series, "volumes", &MetricSeries::name);
+  const auto volumes = std::ranges::find(all.series, "fragment_volume", &MetricSeries::name);
   result["volumes"] = volumes == all.series.end() ? Json::array() : Json(volumes->values);
   result["stage_seconds"] = Json::object();
   for (const StageTime& stage : cell.stages) result["stage_seconds"][stage.name] = stage.seconds;

@@ -140,15 +140,13 @@ int fracture(const FractureArguments& arguments, std::stop_token stop) {
                             : break_by_impact(arguments, target, *breakable, context);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 
-  const std::string status =
-      broken.impacts.empty() || broken.fragments.size() < 2 ? "unbroken" : "ok";
-  Json result = result_json(status, {.body = target.mesh,
-                                     .fragments = broken.fragments,
-                                     .impacts = broken.impacts,
-                                     .stages = timer.times(),
-                                     .total_seconds = seconds,
-                                     .peak_memory = static_cast<double>(peak_memory()),
-                                     .threads = arguments.threads});
+  Json result = result_json({.body = target.mesh,
+                             .fragments = broken.fragments,
+                             .impacts = broken.impacts,
+                             .stages = timer.times(),
+                             .total_seconds = seconds,
+                             .peak_memory = static_cast<double>(peak_memory()),
+                             .threads = arguments.threads});
   if (!broken.why_unbroken.empty()) result["reason"] = broken.why_unbroken;
   result["method"] = arguments.method;
   result["options"] = options.to_json();

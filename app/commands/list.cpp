@@ -7,7 +7,7 @@
 
 #include "app/command.h"
 #include "core/error.h"
-#include "harness/suite.h"
+#include "harness/suite_files.h"
 #include "methods/registry.h"
 #include "metrics/registry.h"
 #include "scenarios/families.h"
@@ -71,7 +71,7 @@ Json list_all_shapes() {
 
 Json list_all_suites() {
   Json list = Json::array();
-  for (const SuiteInfo& suite : list_suites()) {
+  for (const SuiteFile& suite : list_suites()) {
     list.push_back(
         {{"name", suite.name}, {"summary", suite.summary}, {"file", suite.file.string()}});
   }
