@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/progress_line.h"
+#include "harness/catalog.h"
+#include "harness/cost_model.h"
+#include "harness/exit_code.h"
+#include "harness/plan.h"
+#include "harness/runner.h"
+#include "harness/suite_files.h"
+#include "harness/suite_overrides.h"
+#include "harness/suite_reader.h"
+
+namespace fracbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RunArguments {
+  std::string suite;
+  std::filesystem::path out;
+  std::vector<std::string> settings;
+  PlanOptions plan;
+  std::string shard;
+  int jobs = 1;
+  bool dry_run = false;
+  bool as_json = false;
+};
+
+Json to_json(const RunResult& result) {
+  Json json = {{"cells", result.cells}, {"found", result.found}, {"stopped", result.stopped}};
+  for (const CellStatus status : all_cell_statuses()) {
+    const auto found = result.counts.find(status);
+    json[std::string(name_of(status))] = found == result.counts.end() ? 0 : found->second;
+  }
+  return json;
+}
+
+void print_result(const RunResult& result, const RunArguments& arguments) {
+  std::string counts;
+  for (const auto& [status, count] : result.counts) {
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, name_of(status));
+  }
+  fmt::print("{} of {} cells have a record in {}: {}\n", result.recorded(), result.cells,
+             arguments.out.string(), counts.empty() ? "none" : counts);
+  if (result.stopped) fmt::print("stopped; the same command goes on from here\n");
+}
+
+int run(RunArguments arguments, std::stop_token stop) {
+  const Catalog catalog = built_in_catalog();
+  const std::filesystem::path file = find_suite_file(arguments.suite);
+  Suite suite = read_suite(file, catalog);
+  for (const std::string& setting : arguments.settings) {
+    suite = with_override(std::move(suite), setting, catalog);
+  }
+  if (arguments.out.empty()) arguments.out = std::filesystem::path("results") / suite.name;
+  if (!arguments.shard.empty()) arguments.plan.shard = parse_shard(arguments.shard);
+  const Plan plan = make_plan(suite, catalog, arguments.plan);
+
+  const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
+  if (arguments.dry_run) {
+    fmt::print("{}", describe(cost));
+    return kGood;
+  }
+  fmt::print(stderr, "{}", describe(cost));
+  ProgressLine line;
+  const RunResult result =
+      run_suite(plan, catalog,
+                {.folder = arguments.out,
+                 .jobs = arguments.jobs,
+                 .stop = stop,
+                 .progress = [&](const RunProgress& progress) { line.show(progress); },
+                 .message = [&](std::string_view text) { line.message(text); }});
+  line.finish();
+  if (arguments.as_json) {
+    print_json(to_json(result));
+  } else {
+    print_result(result, arguments);
+  }
+  return exit_code_of(result);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& chosen) {
+  auto* command = app.add_subcommand(
+      "run", "Measure a suite; goes on where an earlier run of it was stopped");
+  auto a = std::make_shared<RunArguments>();
+  command
+      ->add_option("suite", a->suite, "Name of a suite ('fracbench list suites') or a TOML file")
+      ->required();
+  command->add_option("--out", a->out, "Results folder [results/<name of the suite>]");
+  command->add_option("--methods", a->plan.methods, "Only these methods (comma-separated)")
+      ->delimiter(',');
+  command->add_option("--shapes", a->plan.shapes, "Only these shapes (comma-separated)")
+      ->delimiter(',');
+  command->add_option("--jobs", a->jobs, "Cells measured at a time; 1 for timings that count")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--set", a->settings,
+                   "Change a value of the suite: seed=7, repeats=3, method.cvd.sites=40, "
+                   "scenario.single.count=10, shape.*.resolution=20")
+      ->take_all();
+  command->add_option("--shard", a->shard, "Only part i of n of the cells: i/n");
+  command->add_flag("--dry-run", a->dry_run, "Only say what there is to do, and what it costs");
+  command->add_flag("--json", a->as_json, "Print the outcome as one JSON object");
+  command->callback([&chosen, a] { chosen = [a](std::stop_token stop) { return run(*a, stop); }; });
+}
+
+}  // namespace fracbench
