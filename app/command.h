@@ -5,20 +5,13 @@
 #include <nlohmann/json_fwd.hpp>
 #include <stop_token>
 
+#include "harness/exit_code.h"
+
 namespace fracbench {
 
-/// Exit codes that scripts may rely on.
-enum ExitCode : int {
-  kGood = 0,
-  kInternalError = 1,
-  kBadInput = 2,  ///< usage or input
-  kRegression = 3,
-  kIncomplete = 4,  ///< nothing or not everything was measured
-  kNoBaseline = 5,  ///< missing or not comparable
-};
-
-/// What the chosen subcommand does: given the token that Ctrl-C sets off, returns the exit code.
-using Action = std::function<int(std::stop_token)>;
+/// What the chosen subcommand does: given the token that Ctrl-C sets off, returns how the program
+/// ends.
+using Action = std::function<ExitCode(std::stop_token)>;
 
 /// Each adds one subcommand; when the user chooses it, `chosen` becomes what it does.
 void add_run_command(CLI::App& app, Action& chosen);

@@ -5,7 +5,6 @@
 
 #include "app/command.h"
 #include "app/interrupt.h"
-#include "core/error.h"
 #include "harness/build_info.h"
 
 namespace {
@@ -22,7 +21,7 @@ constexpr const char* kFooter =
     "\nExit codes: 0 good, 1 internal error, 2 usage or bad input, 3 regression found,\n"
     "4 nothing or not everything was measured, 5 baseline missing or not comparable.\n";
 
-int run_program(int argc, char** argv, std::stop_token stop) {
+fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
   using namespace fracbench;
   CLI::App app(kAbout, "fracbench");
   app.footer(kFooter);
@@ -43,12 +42,12 @@ int run_program(int argc, char** argv, std::stop_token stop) {
 
   if (argc == 1) {
     fmt::print(stderr, "{}", app.help());
-    return kBadInput;
+    return ExitCode::bad_input;
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kGood : kBadInput;
+    return app.exit(error) == 0 ? ExitCode::good : ExitCode::bad_input;
   }
   return chosen(stop);
 }
@@ -59,21 +58,12 @@ int main(int argc, char** argv) {
   using namespace fracbench;
   const Interrupt interrupt;
   try {
-    return run_program(argc, argv, interrupt.token());
-  } catch (const InputError& error) {
-    fmt::print(stderr, "fracbench: {}\n", error.what());
-    return kBadInput;
-  } catch (const MethodFailure& error) {
-    fmt::print(stderr, "fracbench: the method failed: {}\n", error.what());
-    return kIncomplete;
-  } catch (const Cancelled&) {
-    fmt::print(stderr, "fracbench: stopped before it was done\n");
-    return kIncomplete;
+    return static_cast<int>(run_program(argc, argv, interrupt.token()));
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "fracbench: out of memory\n");
-    return kIncomplete;
+    fmt::print(stderr, "fracbench: out of memory; a coarser mesh or fewer jobs need less\n");
+    return static_cast<int>(ExitCode::not_measured);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "fracbench: internal error: {}\n", error.what());
-    return kInternalError;
+    fmt::print(stderr, "fracbench: {}\n", error.what());
+    return static_cast<int>(exit_code_of(error));
   }
 }

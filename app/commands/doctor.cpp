@@ -88,11 +88,11 @@ std::string indented(std::string text, const std::string& indent) {
   return indent + text;
 }
 
-int doctor(bool as_json) {
+ExitCode doctor(bool as_json) {
   const Json findings = look_at_everything();
   if (as_json) {
     print_json(findings);
-    return kGood;
+    return ExitCode::good;
   }
   for (const Json& item : findings) {
     fmt::print("{} {:<16} {}\n", item["ok"] ? "  " : "! ", item["name"].get<std::string>(),
@@ -101,7 +101,7 @@ int doctor(bool as_json) {
       fmt::print("{}\n", indented(item["remedy"].get<std::string>(), std::string(20, ' ')));
     }
   }
-  return kGood;
+  return ExitCode::good;
 }
 
 }  // namespace

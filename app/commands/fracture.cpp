@@ -110,7 +110,7 @@ Fragments in_frame(const Fragments& fragments, const ShapeFrame& frame, const st
   return result;
 }
 
-int fracture(const FractureArguments& arguments, std::stop_token stop) {
+ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
   if (arguments.balls.empty() == arguments.impact.empty()) {
     throw InputError(fmt::format("give either --ball {} or --impact {}", kBallForm, kImpactForm));
   }
@@ -161,7 +161,7 @@ int fracture(const FractureArguments& arguments, std::stop_token stop) {
     if (!broken.why_unbroken.empty()) fmt::print("not broken         {}\n", broken.why_unbroken);
     fmt::print("written to         {}\n", arguments.out.string());
   }
-  return kGood;
+  return ExitCode::good;
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ void print_list(const Json& list) {
   }
 }
 
-int list(const std::string& what, bool as_json) {
+ExitCode list(const std::string& what, bool as_json) {
   Json all = Json::object();
   for (const Kind& kind : kKinds) {
     if (!what.empty() && what != kind.name) continue;
@@ -139,7 +139,7 @@ int list(const std::string& what, bool as_json) {
     all[kind.name] = list;
   }
   if (as_json) print_json(what.empty() ? all : all[what]);
-  return kGood;
+  return ExitCode::good;
 }
 
 }  // namespace

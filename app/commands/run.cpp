@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
-#include "app/progress_line.h"
 #include "harness/catalog.h"
 #include "harness/cost_model.h"
 #include "harness/exit_code.h"
@@ -15,6 +16,7 @@
 #include "harness/suite_files.h"
 #include "harness/suite_overrides.h"
 #include "harness/suite_reader.h"
+#include "harness/terminal_progress.h"
 
 namespace fracbench {
 
@@ -35,9 +37,8 @@ struct RunArguments {
 
 Json to_json(const RunResult& result) {
   Json json = {{"cells", result.cells}, {"found", result.found}, {"stopped", result.stopped}};
-  for (const CellStatus status : all_cell_statuses()) {
-    const auto found = result.counts.find(status);
-    json[std::string(name_of(status))] = found == result.counts.end() ? 0 : found->second;
+  for (const CellStatus status : kCellStatuses) {
+    json[std::string(to_string(status))] = result.count(status);
   }
   return json;
 }
@@ -45,14 +46,14 @@ Json to_json(const RunResult& result) {
 void print_result(const RunResult& result, const RunArguments& arguments) {
   std::string counts;
   for (const auto& [status, count] : result.counts) {
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, name_of(status));
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, to_string(status));
   }
   fmt::print("{} of {} cells have a record in {}: {}\n", result.recorded(), result.cells,
              arguments.out.string(), counts.empty() ? "none" : counts);
   if (result.stopped) fmt::print("stopped; the same command goes on from here\n");
 }
 
-int run(RunArguments arguments, std::stop_token stop) {
+ExitCode run(RunArguments arguments, std::stop_token stop) {
   const Catalog catalog = built_in_catalog();
   const std::filesystem::path file = find_suite_file(arguments.suite);
   Suite suite = read_suite(file, catalog);
@@ -65,19 +66,18 @@ int run(RunArguments arguments, std::stop_token stop) {
 
   const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
   if (arguments.dry_run) {
-    fmt::print("{}", describe(cost));
-    return kGood;
+    fmt::print("{}\n", cost.describe());
+    return ExitCode::good;
   }
-  fmt::print(stderr, "{}", describe(cost));
-  ProgressLine line;
+  fmt::print(stderr, "{}: {}\n", plan.suite.name, cost.describe());
+  TerminalProgress shown(std::cerr, is_terminal(STDERR_FILENO), terminal_columns(STDERR_FILENO));
   const RunResult result =
       run_suite(plan, catalog,
                 {.folder = arguments.out,
                  .jobs = arguments.jobs,
                  .stop = stop,
-                 .progress = [&](const RunProgress& progress) { line.show(progress); },
-                 .message = [&](std::string_view text) { line.message(text); }});
-  line.finish();
+                 .progress = [&](const RunProgress& progress) { shown.update(progress); },
+                 .message = [&](std::string_view text) { shown.message(text); }});
   if (arguments.as_json) {
     print_json(to_json(result));
   } else {
@@ -89,11 +89,10 @@ int run(RunArguments arguments, std::stop_token stop) {
 }  // namespace
 
 void add_run_command(CLI::App& app, Action& chosen) {
-  auto* command = app.add_subcommand(
-      "run", "Measure a suite; goes on where an earlier run of it was stopped");
+  auto* command =
+      app.add_subcommand("run", "Measure a suite; goes on where an earlier run of it was stopped");
   auto a = std::make_shared<RunArguments>();
-  command
-      ->add_option("suite", a->suite, "Name of a suite ('fracbench list suites') or a TOML file")
+  command->add_option("suite", a->suite, "Name of a suite ('fracbench list suites') or a TOML file")
       ->required();
   command->add_option("--out", a->out, "Results folder [results/<name of the suite>]");
   command->add_option("--methods", a->plan.methods, "Only these methods (comma-separated)")

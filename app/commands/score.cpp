@@ -63,7 +63,7 @@ void require_same_place(const std::vector<TriangleMesh>& meshes, const TriangleM
   }
 }
 
-int score(const ScoreArguments& arguments) {
+ExitCode score(const ScoreArguments& arguments) {
   reset_peak_memory();
   StageTimer timer;
   const auto begin = std::chrono::steady_clock::now();
@@ -101,7 +101,7 @@ int score(const ScoreArguments& arguments) {
   } else {
     fmt::print("{}", describe_result(result));
   }
-  return kGood;
+  return ExitCode::good;
 }
 
 }  // namespace
