@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "app/command.h"
+#include "core/error.h"
+#include "harness/build_info.h"
+#include "harness/summaries.h"
+#include "reports/write_report.h"
+
+namespace fracbench {
+
+namespace {
+
+struct ReportArguments {
+  std::filesystem::path results;
+  std::filesystem::path out;
+};
+
+/// Who measured it on what. Records of one folder may come from several machines.
+std::vector<std::string> provenance_of(const Results& results) {
+  std::map<std::string, std::size_t> cells_by_cpu;
+  for (const CellSummary& cell : results.cells) ++cells_by_cpu[cell.cpu];
+  std::vector<std::string> lines;
+  if (!results.suite.summary.empty()) lines.push_back(results.suite.summary);
+  lines.push_back(fmt::format("{} of the suite's {} cells have a record.", results.cells.size(),
+                              results.suite.cells));
+  for (const auto& [cpu, count] : cells_by_cpu) {
+    lines.push_back(fmt::format("{} of them were measured on {}.", count, cpu));
+  }
+  const BuildInfo& build = build_info();
+  lines.push_back(fmt::format("Report by fracbench {} ({}{}).", build.version, build.revision,
+                              build.dirty ? ", with changes" : ""));
+  return lines;
+}
+
+ReportInput input_from(const Results& results) {
+  return {.title = results.suite.name,
+          .cells = results.cells,
+          .provenance = provenance_of(results),
+          .bootstrap = {},
+          .seed = results.suite.values.value("seed", std::uint64_t{1})};
+}
+
+ExitCode report(ReportArguments arguments) {
+  if (arguments.out.empty()) arguments.out = arguments.results / "report";
+  const Results results = read_results(arguments.results);
+  for (const std::string& message : results.unreadable) {
+    fmt::print(stderr, "fracbench: left out: {}\n", message);
+  }
+  if (results.cells.empty()) {
+    fmt::print(stderr, "fracbench: {}: holds no records; run the suite first: fracbench run {}\n",
+               arguments.results.string(), results.suite.name);
+    return ExitCode::not_measured;
+  }
+  const std::filesystem::path file = write_report(input_from(results), arguments.out);
+  fmt::print("{}\n", file.string());
+  return results.unreadable.empty() ? ExitCode::good : ExitCode::not_measured;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Action& chosen) {
+  auto* command = app.add_subcommand("report", "Tables of a results folder, as Markdown and CSV");
+  auto a = std::make_shared<ReportArguments>();
+  command->add_option("results", a->results, "Results folder of 'fracbench run'")->required();
+  command->add_option("--out", a->out, "Folder of the report [<results>/report]");
+  command->callback([&chosen, a] { chosen = [a](std::stop_token) { return report(*a); }; });
+}
+
+}  // namespace fracbench
