@@ -114,7 +114,7 @@ void print_options(const Json& options) {
   }
 }
 
-void print_list(const Json& list) {
+void print_list(const Json& list, bool with_options) {
   std::size_t width = 0;
   for (const Json& item : list) width = std::max(width, item["name"].get<std::string>().size());
   for (const Json& item : list) {
@@ -123,7 +123,7 @@ void print_list(const Json& list) {
     if (item.contains("how_to_get")) {
       fmt::print("  {:<{}}  not here: {}\n", "", width, item["how_to_get"].get<std::string>());
     }
-    if (item.contains("options")) print_options(item["options"]);
+    if (with_options && item.contains("options")) print_options(item["options"]);
   }
 }
 
@@ -133,8 +133,8 @@ ExitCode list(const std::string& what, bool as_json) {
     if (!what.empty() && what != kind.name) continue;
     const Json list = kind.list();
     if (!as_json) {
-      fmt::print("{}\n", kind.name);
-      print_list(list);
+      fmt::print("{}{}\n", all.empty() ? "" : "\n", kind.name);
+      print_list(list, !what.empty());
     }
     all[kind.name] = list;
   }
@@ -145,7 +145,7 @@ ExitCode list(const std::string& what, bool as_json) {
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& chosen) {
-  auto* command = app.add_subcommand("list", "What there is, with the options of each");
+  auto* command = app.add_subcommand("list", "What there is; of one kind, with all options");
   auto what = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   std::vector<std::string> names;

@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,inf", "'inf' is not a number"},
                       BadCall{"cvd cube.obj --impact 0,0,0,1,0,0,1e5", "surface"},
                       BadCall{"cvd cube.obj --impact=-0.95,0,0,1,0,0,-5", "-5"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites=0", "at least"},
+                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites=0", "allowed is 1 to"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set site=5",
                               "did you mean 'sites'"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites", "name=value"},
