@@ -148,7 +148,7 @@ class CvdBody : public Breakable {
     const auto stage = context.timer.stage("merge");
     const std::vector<std::int32_t> piece_of_part =
         cvd::merge_small_parts(complex, parts, settings_.minimum_volume * topology_.volume);
-    return cvd::build_pieces(complex, parts, piece_of_part, context.threads);
+    return cvd::build_pieces(complex, parts, piece_of_part);
   }
 
   Settings settings_;

@@ -30,6 +30,6 @@ std::vector<std::int32_t> merge_small_parts(const CellComplex& complex, const Ce
 /// The pieces as closed meshes, without faces between parts of one piece. Faces on the surface come
 /// first, in the order of the body's.
 std::vector<Piece> build_pieces(const CellComplex& complex, const CellParts& parts,
-                                const std::vector<std::int32_t>& piece_of_part, int threads);
+                                const std::vector<std::int32_t>& piece_of_part);
 
 }  // namespace fracbench::cvd

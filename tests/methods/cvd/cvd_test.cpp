@@ -86,6 +86,26 @@ TEST(Cvd, DividesTurnedBodiesWhoseVerticesLieOnTheBisectorsButForRounding) {
   }
 }
 
+TEST(Cvd, LeavesNoCrossingFacesWhereItMustMakeEdgesNearTheRoundingOfCoordinates) {
+  const std::vector<Vec3> corners{{-.5, -.5, -.5}, {-.5, -.5, .5}, {-.5, .5, -.5}, {-.5, .5, .5},
+                                  {.5, -.5, -.5},  {.5, -.5, .5},  {.5, .5, -.5},  {.5, .5, .5}};
+  for (const std::uint64_t seed : {1u, 2u, 4u}) {
+    Random random(seed);
+    const double angle = random.uniform(0, 6.28);
+    const Mat3 turn = Eigen::AngleAxisd(angle, random.unit_vector()).toRotationMatrix();
+    std::vector<double> octants;
+    for (const Vec3& corner : corners) {
+      const Vec3 p = turn * corner;
+      octants.insert(octants.end(), {p[0], p[1], p[2]});
+    }
+    for (const Body& body : generated_bodies()) {
+      SCOPED_TRACE(body.name + ", seed " + std::to_string(seed));
+      const TriangleMesh turned = rotated(body.mesh, turn);
+      EXPECT_EQ(count_crossings(break_body(turned, {sites_at(octants)})), 0u);
+    }
+  }
+}
+
 TEST(Cvd, CutsACubeIntoHalvesAndOctantsOfExactVolume) {
   // Sides with an odd number of divisions have no vertex on the cut.
   const auto halves = sorted_volumes(break_body(cube(3), {sites_at({-0.5, 0, 0, 0.5, 0, 0})}));
