@@ -2,9 +2,14 @@
 
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/command.h"
 #include "app/interrupt.h"
+#include "core/error.h"
+#include "core/text.h"
 #include "harness/build_info.h"
 
 namespace {
@@ -20,6 +25,18 @@ constexpr const char* kFooter =
     "  fracbench report results                                          read the outcome\n"
     "\nExit codes: 0 good, 1 internal error, 2 usage or bad input, 3 regression found,\n"
     "4 nothing or not everything was measured, 5 baseline missing or not comparable.\n";
+
+/// The library would only say that a subcommand is required.
+void require_known_subcommand(const CLI::App& app, std::string_view first) {
+  if (first.starts_with('-')) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.push_back(command->get_name());
+    if (names.back() == first) return;
+  }
+  throw fracbench::InputError(fmt::format("unknown subcommand '{}'{}; see fracbench --help", first,
+                                          fracbench::did_you_mean(first, names)));
+}
 
 fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
   using namespace fracbench;
@@ -44,6 +61,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
     fmt::print(stderr, "{}", app.help());
     return ExitCode::bad_input;
   }
+  require_known_subcommand(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
