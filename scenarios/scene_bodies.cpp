@@ -67,11 +67,10 @@ void require_free_start(const Scenario& scenario, const SceneBodies::Solid& targ
   }
 }
 
-RigidSolid rigid_solid(const TriangleMesh& mesh, const Material& material,
-                       const ColliderOptions& collider) {
+RigidSolid rigid_solid(const TriangleMesh& mesh, const Material& material, Collider collider) {
   return {.surface = std::make_shared<SurfaceTree>(mesh),
           .frame = mass_frame(mass_properties(mesh), material.density),
-          .collider = make_collider(mesh, collider),
+          .collider = std::move(collider),
           .material = material};
 }
 
@@ -93,8 +92,7 @@ SceneBodies::SceneBodies(const Scenario& scenario, const Target& target,
     solid.fragment.faces.push_back({.original_face = static_cast<std::int32_t>(f)});
   }
   solid.breakable = std::move(breakable);
-  // Balls meet its surface, and there is nothing else that it could meet: one hull will do.
-  solid.rigid = rigid_solid(target.mesh, scenario.material, {.gap = 0, .max_parts = 1});
+  solid.rigid = rigid_solid(target.mesh, scenario.material, box_collider(target.mesh));
   require_free_start(scenario, solid, target.name);
   solid.track = new_track(Track::Kind::target, 0);
   add_solid(std::move(solid), {});
@@ -182,8 +180,9 @@ Replacement SceneBodies::replace(int solid, std::vector<Piece> pieces, double ti
     if (mesh.empty() || !(volume(mesh) > 0)) {
       throw MethodFailure(fmt::format("piece {} of {} has no volume", p, pieces.size()));
     }
-    rigids.push_back(rigid_solid(mesh, broken.rigid.material,
-                                 {.gap = kGapShare * size_, .tolerance = kToleranceShare * size_}));
+    rigids.push_back(rigid_solid(
+        mesh, broken.rigid.material,
+        make_collider(mesh, {.gap = kGapShare * size_, .tolerance = kToleranceShare * size_})));
     frames.push_back(rigids.back().frame);
   }
 

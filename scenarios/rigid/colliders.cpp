@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -12,6 +14,11 @@
 namespace fracbench {
 
 namespace {
+
+constexpr std::size_t kTrianglesToChooseBy = 200;
+// Collisions take as long as a part has vertices. Of a ball of radius r, so many leave out at most
+// 0.06 r.
+constexpr std::size_t kMaxVertices = 48;
 
 using Triangle = std::array<Vec3, 3>;
 using Triangles = std::vector<Triangle>;
@@ -31,12 +38,12 @@ struct Part {
   Vec3 deepest_normal = Vec3::Zero();
 };
 
-ConvexHull hull_of(const Triangles& surface, double inset = 0) {
+ConvexHull hull_of(const Triangles& surface) {
   std::vector<Vec3> points;
   points.reserve(3 * surface.size());
   for (const Triangle& triangle : surface)
     points.insert(points.end(), triangle.begin(), triangle.end());
-  return convex_hull(points, inset);
+  return convex_hull(points);
 }
 
 /// The triangle's part where normal . x >= offset (side = 1) or <= offset (side = -1).
@@ -85,24 +92,36 @@ void find_concavity(Part& part) {
 std::optional<std::pair<Part, Part>> cut(const Part& part) {
   std::vector<Vec3> normals = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   if (part.deepest_normal.norm() > 0) normals.push_back(part.deepest_normal.normalized());
-  std::optional<std::pair<Part, Part>> best;
+  // Some triangles are enough to choose the plane by.
+  const std::size_t stride = 1 + part.surface.size() / kTrianglesToChooseBy;
+  std::optional<Plane> best;
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& normal : normals) {
     const Plane plane = {normal, normal.dot(part.deepest)};
-    std::pair<Part, Part> halves;
-    for (const Triangle& triangle : part.surface) {
-      clip(triangle, plane, 1, halves.first.surface);
-      clip(triangle, plane, -1, halves.second.surface);
+    Triangles above;
+    Triangles below;
+    for (std::size_t t = 0; t < part.surface.size(); t += stride) {
+      clip(part.surface[t], plane, 1, above);
+      clip(part.surface[t], plane, -1, below);
     }
-    halves.first.hull = hull_of(halves.first.surface);
-    halves.second.hull = hull_of(halves.second.surface);
-    if (halves.first.hull.vertices.empty() || halves.second.hull.vertices.empty()) continue;
-    const double volume = halves.first.hull.volume + halves.second.hull.volume;
-    if (volume >= least) continue;
-    least = volume;
-    best = std::move(halves);
+    const ConvexHull first = hull_of(above);
+    const ConvexHull second = hull_of(below);
+    if (first.vertices.empty() || second.vertices.empty()) continue;
+    if (first.volume + second.volume >= least) continue;
+    least = first.volume + second.volume;
+    best = plane;
   }
-  return best;
+  if (!best) return std::nullopt;
+  std::pair<Part, Part> halves;
+  for (const Triangle& triangle : part.surface) {
+    clip(triangle, *best, 1, halves.first.surface);
+    clip(triangle, *best, -1, halves.second.surface);
+  }
+  halves.first.hull = hull_of(halves.first.surface);
+  halves.second.hull = hull_of(halves.second.surface);
+  if (halves.first.hull.vertices.empty() || halves.second.hull.vertices.empty())
+    return std::nullopt;
+  return halves;
 }
 
 std::vector<Part> decompose(const TriangleMesh& mesh, const ColliderOptions& options) {
@@ -128,30 +147,56 @@ std::vector<Part> decompose(const TriangleMesh& mesh, const ColliderOptions& opt
   return parts;
 }
 
+/// Of many vertices those that are farthest in some evenly spread directions (Fibonacci lattice).
+std::vector<Vec3> thinned(const std::vector<Vec3>& vertices) {
+  if (vertices.size() <= kMaxVertices) return vertices;
+  std::vector<bool> keep(vertices.size(), false);
+  for (std::size_t k = 0; k < kMaxVertices; ++k) {
+    const double z = 1 - (2 * static_cast<double>(k) + 1) / kMaxVertices;
+    const double angle = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    const Vec3 direction(r * std::cos(angle), r * std::sin(angle), z);
+    std::size_t farthest = 0;
+    for (std::size_t v = 1; v < vertices.size(); ++v) {
+      if (direction.dot(vertices[v]) > direction.dot(vertices[farthest])) farthest = v;
+    }
+    keep[farthest] = true;
+  }
+  std::vector<Vec3> kept;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (keep[v]) kept.push_back(vertices[v]);
+  }
+  return kept;
+}
+
+std::vector<Vec3> corners(const Vec3& center, const Vec3& half) {
+  std::vector<Vec3> points;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+    points.push_back(center + sign.cwiseProduct(half));
+  }
+  return points;
+}
+
 /// A solid too thin to have a hull collides as a box a tenth as large as its own.
 Collider::Part tiny_box(const TriangleMesh& mesh) {
   const BoundingBox box = bounding_box(mesh);
-  const Vec3 half = ((box.high - box.low) / 20).cwiseMax(1e-4);
-  Collider::Part part;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
-    part.vertices.push_back(box.center() + sign.cwiseProduct(half));
-  }
-  return part;
+  return {.vertices = corners(box.center(), ((box.high - box.low) / 20).cwiseMax(1e-4))};
 }
 
 }  // namespace
 
+Collider box_collider(const TriangleMesh& mesh) {
+  const BoundingBox box = bounding_box(mesh);
+  return {.parts = {{.vertices = corners(box.center(), (box.high - box.low) / 2)}}};
+}
+
 Collider make_collider(const TriangleMesh& mesh, const ColliderOptions& options) {
   Collider collider;
-  const auto add = [&](const ConvexHull& hull) {
-    if (hull.vertices.empty()) return;
-    collider.parts.push_back({.vertices = hull.vertices, .margin = hull.inset / 2});
-  };
-  if (options.max_parts <= 1) {
-    add(convex_hull(mesh.vertices, options.gap));
-  } else {
-    for (const Part& part : decompose(mesh, options)) add(hull_of(part.surface, options.gap));
+  for (const Part& part : decompose(mesh, options)) {
+    const ConvexHull hull = convex_hull(part.hull.vertices, options.gap);
+    if (hull.vertices.empty()) continue;
+    collider.parts.push_back({.vertices = thinned(hull.vertices), .margin = hull.inset / 2});
   }
   if (collider.parts.empty()) collider.parts.push_back(tiny_box(mesh));
   return collider;

@@ -27,4 +27,7 @@ struct ColliderOptions {
 /// reached.
 Collider make_collider(const TriangleMesh& mesh, const ColliderOptions& options = {});
 
+/// The bounding box: enough for a solid that meets nothing but balls.
+Collider box_collider(const TriangleMesh& mesh);
+
 }  // namespace fracbench
