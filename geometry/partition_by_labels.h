@@ -17,7 +17,9 @@ enum class PartitionPath {
 struct PartitionOptions {
   PartitionPath path = PartitionPath::fast;
   /// Sweeps of Laplacian smoothing over the interfaces. No vertex ever leaves its voxel-sized cell.
-  int smoothing_steps = 24;
+  /// With 16, the normals of a planar cut deviate by less than 3 degrees on average at every
+  /// orientation; more make planes smoother still, but flatten what is curved.
+  int smoothing_steps = 16;
   /// Connected parts of less than this many voxels (times spacing^3: the volume) are merged into
   /// the neighbour with which they share the largest area. `fast` only; 0: none.
   double minimum_voxels = 0.5;

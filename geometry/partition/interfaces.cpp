@@ -170,7 +170,6 @@ class Extraction {
     parallel_for(
         nodes_.size(), options_.threads, [&](std::size_t n) { prepare_node(nodes_[n]); }, 1024);
     std::vector<Vec3> next(nodes_.size());
-    const auto& grid = grid_;
     for (int round = 0; round < options_.smoothing_steps; ++round) {
       parallel_for(
           nodes_.size(), options_.threads,
@@ -192,7 +191,6 @@ class Extraction {
           1024);
       for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n].place = next[n];
     }
-    (void)grid;
   }
 
   Vec3 sample_position(std::size_t sample) const {

@@ -20,7 +20,7 @@ struct InterfaceMesh {
 };
 
 struct InterfaceOptions {
-  int smoothing_steps = 24;
+  int smoothing_steps = 16;
   bool with_void = false;  ///< also the triangles between a region and the void
   std::uint64_t salt = 0;  ///< other salts displace the vertices differently by a tiny amount
   int threads = 2;
