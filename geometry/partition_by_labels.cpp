@@ -10,6 +10,7 @@
 #include "geometry/partition/arrangement.h"
 #include "geometry/partition/assemble_pieces.h"
 #include "geometry/partition/crossings.h"
+#include "geometry/partition/exact_partition.h"
 #include "geometry/partition/interfaces.h"
 #include "geometry/partition/label_lattice.h"
 
@@ -63,18 +64,23 @@ Partition partition_by_labels(const TriangleMesh& mesh, const VoxelGrid<std::int
   const LabelLattice lattice = make_lattice(mesh, labels, options.threads);
   const double voxel = labels.spacing * labels.spacing * labels.spacing;
 
+  const bool exact = options.path == PartitionPath::exact;
   InterfaceOptions how{.smoothing_steps = options.smoothing_steps,
-                       .with_void = false,
+                       .with_void = exact,
                        .salt = 0,
                        .threads = options.threads};
-  for (int attempt = 1;; ++attempt, ++how.salt) {
+  const auto attempt = [&](const InterfaceMesh& interfaces) {
+    if (exact) return exact_partition(mesh, interfaces, lattice, options.threads);
+    const Crossings crossings = find_crossings(mesh, interfaces, lattice.region, options.threads);
+    const Arrangement arrangement = arrange(mesh, interfaces, crossings, lattice, options.threads);
+    return assemble_pieces(arrangement, lattice.labels, options.minimum_voxels * voxel,
+                           options.threads);
+  };
+  for (;; ++how.salt) {
+    const bool last = how.salt + 1 == most_attempts;
     try {
       const InterfaceMesh interfaces = extract_interfaces(lattice, how);
-      const Crossings crossings = find_crossings(mesh, interfaces, lattice.region, options.threads);
-      const Arrangement arrangement =
-          arrange(mesh, interfaces, crossings, lattice, options.threads);
-      Partition result = assemble_pieces(arrangement, lattice.labels,
-                                         options.minimum_voxels * voxel, options.threads);
+      Partition result = attempt(interfaces);
       PartitionReport& report = result.report;
       report.labels_without_piece.insert(report.labels_without_piece.end(),
                                          lattice.labels_outside.begin(),
@@ -83,12 +89,15 @@ Partition partition_by_labels(const TriangleMesh& mesh, const VoxelGrid<std::int
       report.filled_voxels = lattice.filled_voxels;
       report.ambiguous_cells = interfaces.ambiguous_cells;
       report.interface_faces = interfaces.mesh.faces.size();
-      report.attempts = attempt;
+      report.attempts = static_cast<int>(how.salt) + 1;
       return result;
     } catch (const NotGeneric& error) {
-      if (attempt == most_attempts) {
-        throw MethodFailure(fmt::format("no valid cut in {} attempts: {}", attempt, error.what()));
+      if (last) {
+        throw MethodFailure(
+            fmt::format("no valid cut in {} attempts: {}", most_attempts, error.what()));
       }
+    } catch (const MethodFailure&) {
+      if (last) throw;
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "core/parallel.h"
 #include "geometry/exact_predicates.h"

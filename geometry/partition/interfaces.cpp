@@ -200,10 +200,10 @@ class Extraction {
                 static_cast<double>(sample / (nx * ny)));
   }
 
-  /// Three numbers in [-1, 1) that depend on the vertex number and the salt only (splitmix64).
-  Vec3 noise(std::size_t vertex) const {
+  /// Three numbers in [-1, 1) that depend on the vertex's key and the salt only (splitmix64).
+  Vec3 noise(std::uint64_t key) const {
     Vec3 result;
-    std::uint64_t state = vertex * 3 + options_.salt * 0x632be59bd9b4e019ull;
+    const std::uint64_t state = key * 3 + options_.salt * 0x632be59bd9b4e019ull;
     for (int axis = 0; axis < 3; ++axis) {
       std::uint64_t z = (state + static_cast<std::uint64_t>(axis) + 1) * 0x9e3779b97f4a7c15ull;
       z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
@@ -214,16 +214,22 @@ class Extraction {
     return result;
   }
 
-  /// `local` is in units of the grid, relative to its origin.
-  std::int32_t add_vertex(const Vec3& local) {
-    const std::size_t number = local_.size();
-    local_.push_back(local + displacement * noise(number));
-    return static_cast<std::int32_t>(number);
+  // Every vertex has a key, 32 * (index of a sample) + what it is there: 0 to 5 in a tetrahedron,
+  // 8 + step on an edge, 16 + kind in a side of a tetrahedron, 31 in the whole cell.
+  static std::uint64_t key(std::size_t sample, int what) {
+    return 32 * static_cast<std::uint64_t>(sample) + static_cast<std::uint64_t>(what);
   }
 
-  std::int32_t keyed_vertex(std::uint64_t key, const Vec3& local) {
-    const auto [at, added] = keyed_.try_emplace(key, 0);
-    if (added) at->second = add_vertex(local);
+  /// `local` is in units of the grid, relative to its origin.
+  std::int32_t add_vertex(std::uint64_t vertex_key, const Vec3& local) {
+    local_.push_back(local + displacement * noise(vertex_key));
+    return static_cast<std::int32_t>(local_.size() - 1);
+  }
+
+  /// The same vertex each time it is asked for.
+  std::int32_t shared_vertex(std::uint64_t vertex_key, const Vec3& local) {
+    const auto [at, added] = shared_.try_emplace(vertex_key, 0);
+    if (added) at->second = add_vertex(vertex_key, local);
     return at->second;
   }
 
@@ -232,17 +238,18 @@ class Extraction {
     const std::size_t base = start - step_[step.triangle_base];
     const auto& steps = tables_.triangle_steps[step.triangle_kind];
     const Vec3 middle = sample_position(base) + (step_vector(steps[0]) + step_vector(steps[1])) / 3;
-    return keyed_vertex(base * 32 + 16 + step.triangle_kind, middle);
+    return shared_vertex(key(base, 16 + step.triangle_kind), middle);
   }
 
   std::int32_t tetrahedron_vertex(std::size_t cell, int tetrahedron) {
     Vec3 middle = sample_position(cell);
     for (const int c : tables_.tetrahedron[tetrahedron]) middle += step_vector(c) / 4;
-    return keyed_vertex(cell * 32 + static_cast<std::size_t>(tetrahedron), middle);
+    return shared_vertex(key(cell, tetrahedron), middle);
   }
 
   void emit() {
-    for (const Node& node : nodes_) add_vertex(sample_position(node.cell) + node.place);
+    for (const Node& node : nodes_)
+      add_vertex(key(node.cell, 31), sample_position(node.cell) + node.place);
     for (const std::size_t cell : cells_) {
       const std::int32_t below = grid_.values[cell];
       for (int d = 1; d < 8; ++d) {
@@ -299,7 +306,7 @@ class Extraction {
     for (const std::int32_t v : polygon_) along += (local_[v] - low).dot(direction);
     along /= static_cast<double>(polygon_.size()) * direction.squaredNorm();
     along = std::clamp(along, edge_margin, 1 - edge_margin);
-    const std::int32_t middle = add_vertex(low + along * direction);
+    const std::int32_t middle = add_vertex(key(start, 8 + d), low + along * direction);
     for (std::size_t n = 0; n < polygon_.size(); ++n) {
       add_face(middle, polygon_[n], polygon_[(n + 1) % polygon_.size()]);
     }
@@ -337,7 +344,7 @@ class Extraction {
   std::vector<std::int32_t> cell_node_;  ///< node, uniform or ambiguous
   std::vector<Node> nodes_;              ///< vertex numbers are those of the nodes, then others
   std::vector<Vec3> local_;              ///< positions of the vertices, in cells
-  std::unordered_map<std::uint64_t, std::int32_t> keyed_;
+  std::unordered_map<std::uint64_t, std::int32_t> shared_;
   std::vector<std::int32_t> polygon_;
   InterfaceMesh result_;
 };

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -135,6 +136,37 @@ TEST(Partition, OfAPlanarCutHasNoStairSteps) {
     }
     EXPECT_LT(angle / area * 180 / std::numbers::pi, 3.0) << "degrees, round " << round;
     EXPECT_LT(reach / grid.spacing, 0.6) << "voxels, round " << round;
+  }
+}
+
+TEST(Partition, AlongTheExactPathGivesThePiecesOfTheFastOne) {
+  const std::vector<Named> some = {{"sphere", test_meshes::sphere(20, 30, 0.95)},
+                                   {"hollow cube", test_meshes::hollow_cube()},
+                                   {"torus", test_meshes::torus(24, 12)},
+                                   {"thin jar", thin_jar()}};
+  for (const Named& body : some) {
+    Random random(21);
+    for (const bool noisy : {false, true}) {
+      const Labels grid = grid_around(body.mesh, noisy ? 6 : 14);
+      const Labels labels = noisy ? noise(grid, 3, random) : voronoi(grid, 8, random);
+      const Partition fast = partition_by_labels(body.mesh, labels, {.minimum_voxels = 0});
+      const Partition exact =
+          partition_by_labels(body.mesh, labels, {.path = PartitionPath::exact});
+      EXPECT_EQ(faults(body.mesh, exact, {.disjoint = !noisy, .shared_interfaces = false}), "")
+          << body.name;
+      ASSERT_EQ(exact.report.piece_label, fast.report.piece_label) << body.name;
+      // Both carry labels in the same order; parts of one label come in any.
+      std::vector<std::pair<std::int32_t, double>> a, b;
+      for (std::size_t p = 0; p < fast.pieces.size(); ++p) {
+        a.emplace_back(fast.report.piece_label[p], volume(fast.pieces[p].mesh));
+        b.emplace_back(exact.report.piece_label[p], volume(exact.pieces[p].mesh));
+      }
+      std::sort(a.begin(), a.end());
+      std::sort(b.begin(), b.end());
+      for (std::size_t p = 0; p < a.size(); ++p) {
+        EXPECT_NEAR(a[p].second, b[p].second, 1e-12 * volume(body.mesh)) << body.name;
+      }
+    }
   }
 }
 
