@@ -5,55 +5,41 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "geometry/edge_table.h"
 
 namespace fracbench::cvd {
 
 SurfaceTopology surface_topology(const TriangleMesh& mesh) {
-  struct Side {
-    std::array<std::int32_t, 2> ends;
-    std::int32_t face;
-    std::int8_t corner;
-    bool forward;  // the face runs from the lower to the higher index
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    for (int m = 0; m < 3; ++m) {
-      const std::int32_t a = mesh.faces[f][m], b = mesh.faces[f][(m + 1) % 3];
-      sides.push_back({{std::min(a, b), std::max(a, b)},
-                       static_cast<std::int32_t>(f),
-                       static_cast<std::int8_t>(m),
-                       a < b});
+    const auto& [a, b, c] = mesh.faces[f];
+    if (a == b || b == c || c == a) {
+      throw MethodFailure(fmt::format(
+          "face {} of the body has corners {}, {}, {}, must have three different ones; repair the "
+          "mesh",
+          f, a, b, c));
     }
   }
-  std::ranges::sort(sides, [](const Side& a, const Side& b) {
-    return std::tie(a.ends, a.face) < std::tie(b.ends, b.face);
-  });
-
   SurfaceTopology topology;
   topology.mesh = mesh;
   topology.face_edges.resize(mesh.faces.size());
-  topology.edges.reserve(sides.size() / 2);
-  for (std::size_t s = 0; s < sides.size();) {
-    std::size_t end = s;
-    while (end < sides.size() && sides[end].ends == sides[s].ends) ++end;
-    const auto [a, b] = sides[s].ends;
-    if (end - s != 2) {
-      throw MethodFailure(fmt::format(
-          "edge {}-{} of the body has {} face(s), a closed body has 2 at each; repair the mesh", a,
-          b, end - s));
-    }
-    if (a == b || sides[s].forward == sides[s + 1].forward) {
-      throw MethodFailure(fmt::format(
-          "the faces at edge {}-{} of the body are turned against each other; repair the mesh", a,
-          b));
-    }
-    for (; s < end; ++s) {
-      topology.face_edges[sides[s].face][sides[s].corner] =
-          static_cast<std::int32_t>(topology.edges.size());
-    }
-    topology.edges.push_back({a, b});
-  }
+  topology.edges.reserve(3 * mesh.faces.size() / 2);
+  EdgeTable(mesh).for_each_edge(
+      [&](std::int32_t low, std::int32_t high, std::span<const EdgeTable::Side> sides) {
+        if (sides.size() != 2) {
+          throw MethodFailure(fmt::format(
+              "edge {}-{} of the body has {} face(s), a closed body has 2 at each; repair the mesh",
+              low, high, sides.size()));
+        }
+        if (sides[0].forward == sides[1].forward) {
+          throw MethodFailure(fmt::format(
+              "the faces at edge {}-{} of the body are turned against each other; repair the mesh",
+              low, high));
+        }
+        for (const EdgeTable::Side& side : sides) {
+          topology.face_edges[side.face][side.k] = static_cast<std::int32_t>(topology.edges.size());
+        }
+        topology.edges.push_back({low, high});
+      });
   topology.box = bounding_box(mesh);
   topology.volume = volume(mesh);
   topology.scale = std::max({topology.box.longest_side(), topology.box.low.cwiseAbs().maxCoeff(),

@@ -24,7 +24,8 @@ struct SurfaceTopology {
 };
 
 /// Throws MethodFailure, naming the edge, where the mesh is not closed, not manifold along an edge
-/// or not consistently oriented, or where its volume is not positive.
+/// or not consistently oriented, where a face repeats a vertex, or where the volume is not
+/// positive. Indices must be in range.
 SurfaceTopology surface_topology(const TriangleMesh& mesh);
 
 }  // namespace fracbench::cvd
