@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 
 #include "harness/cell_status.h"
 
@@ -27,5 +28,8 @@ struct RunResult {
   std::size_t measured() const { return count(CellStatus::ok) + count(CellStatus::unbroken); }
   bool complete() const { return recorded() == cells; }
 };
+
+/// "cells", "found", "complete", "stopped" and a count for each status by its name, 0 included.
+nlohmann::ordered_json to_json(const RunResult& result);
 
 }  // namespace fracbench

@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "harness/hdf5_handle.h"
+#include "temporary_folder.h"
 
 namespace fracbench {
 namespace {
@@ -34,18 +35,13 @@ DataTree sample_tree() {
 
 class DataFileTest : public testing::Test {
  protected:
-  DataFileTest() {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  ~DataFileTest() override { fs::remove_all(folder); }
-
   fs::path write(const std::string& bytes) const {
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }
 
-  fs::path folder = fs::temp_directory_path() / "fracbench-data-file-test";
+  TemporaryFolder temporary;
+  fs::path folder = temporary.path();
   fs::path file = folder / "tree.h5";
 };
 

@@ -15,6 +15,7 @@
 #include "harness/record_store.h"
 #include "harness/runner.h"
 #include "harness/suite_overrides.h"
+#include "temporary_folder.h"
 #include "toy_catalog.h"
 
 namespace fracbench {
@@ -73,8 +74,8 @@ class KilledRunTest : public testing::TestWithParam<int> {};
 
 TEST_P(KilledRunTest, GivesTheSameRecordsAsOneThatWasLeftAlone) {
   const int jobs = GetParam();
-  const fs::path base = fs::temp_directory_path() / ("fracbench-kill-test-" + std::to_string(jobs));
-  fs::remove_all(base);
+  const TemporaryFolder temporary;
+  const fs::path& base = temporary.path();
   const ToyWorld world;
   const Catalog catalog = world.catalog();
   const Plan plan = kill_plan(catalog);
@@ -105,7 +106,6 @@ TEST_P(KilledRunTest, GivesTheSameRecordsAsOneThatWasLeftAlone) {
   for (const auto& item : fs::directory_iterator(base / "killed" / "records")) {
     EXPECT_EQ(item.path().extension(), ".h5");
   }
-  fs::remove_all(base);
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, KilledRunTest, testing::Values(1, 2));

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
@@ -18,6 +19,7 @@
 #include "harness/record_store.h"
 #include "harness/suite_overrides.h"
 #include "harness/summaries.h"
+#include "temporary_folder.h"
 #include "toy_catalog.h"
 
 namespace fracbench {
@@ -28,12 +30,6 @@ using testing::HasSubstr;
 
 class RunnerTest : public testing::Test {
  protected:
-  RunnerTest() {
-    fs::remove_all(base);
-    fs::create_directories(base);
-  }
-  ~RunnerTest() override { fs::remove_all(base); }
-
   Plan plan_with(std::initializer_list<const char*> assignments) {
     Suite changed = suite;
     for (const char* assignment : assignments) {
@@ -58,7 +54,8 @@ class RunnerTest : public testing::Test {
     return all;
   }
 
-  fs::path base = fs::temp_directory_path() / "fracbench-runner-test";
+  TemporaryFolder temporary;
+  fs::path base = temporary.path();
   fs::path folder = base / "results";
   ToyWorld world;
   Catalog catalog = world.catalog();
@@ -73,6 +70,9 @@ TEST_F(RunnerTest, MakesARecordForEveryCell) {
   EXPECT_EQ(result.counts.at(CellStatus::ok), 12);
   EXPECT_TRUE(result.complete());
   EXPECT_EQ(exit_code_of(result), ExitCode::good);
+  EXPECT_EQ(to_json(result).dump(),
+            R"({"cells":12,"found":0,"complete":true,"stopped":false,"ok":12,"unbroken":0,)"
+            R"("invalid":0,"timeout":0,"out-of-memory":0,"crash":0})");
   const RecordStore store(folder);
   for (const Cell& cell : plan.cells) {
     const Record record = store.read(cell.key);

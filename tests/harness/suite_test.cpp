@@ -12,6 +12,7 @@
 #include "harness/suite_files.h"
 #include "harness/suite_overrides.h"
 #include "harness/suite_reader.h"
+#include "temporary_folder.h"
 #include "toy_catalog.h"
 
 namespace fracbench {
@@ -97,15 +98,14 @@ TEST_F(SuiteTest, RefusesLabelsThatAreUsedTwiceOrWouldNotFitAFileName) {
 }
 
 TEST_F(SuiteTest, ResolvesMeshFilesRelativeToItself) {
-  const auto folder = std::filesystem::temp_directory_path() / "fracbench-suite-test";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   std::ofstream(folder / "rock.obj") << "\n";
   std::string text = toy_suite_text();
   text.replace(text.find("\"box\""), 5, "\"rock.obj\"");
   const Suite suite = parse_suite(text, folder / "toy.toml", catalog);
   EXPECT_EQ(suite.shapes[0].label, "rock");
   EXPECT_EQ(suite.shapes[0].request.name, (folder / "rock.obj").string());
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(SuiteTest, OverridesReplaceSingleValues) {
@@ -140,8 +140,8 @@ TEST_F(SuiteTest, OverridesThatCannotBeMeantAreRefusedWithTheWayOut) {
 }
 
 TEST_F(SuiteTest, IsFoundByNameInTheUsersFoldersFirst) {
-  const auto folder = std::filesystem::temp_directory_path() / "fracbench-suites-test";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   std::ofstream(folder / "mine.toml") << toy_suite_text();
   setenv("FRACBENCH_SUITES", folder.c_str(), 1);
   EXPECT_EQ(find_suite_file("mine"), folder / "mine.toml");
@@ -151,7 +151,6 @@ TEST_F(SuiteTest, IsFoundByNameInTheUsersFoldersFirst) {
   for (const SuiteFile& suite : list_suites()) listed |= suite.summary == "toys";
   EXPECT_TRUE(listed);
   unsetenv("FRACBENCH_SUITES");
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(SuiteTest, ItsJsonHoldsEveryValueThatDeterminesResults) {
