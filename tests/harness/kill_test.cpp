@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,9 +48,14 @@ std::map<std::string, DataTree::Array> results_of(const fs::path& folder) {
 }
 
 /// This same program, filling a folder; see the disabled test below.
-::pid_t start_run(const fs::path& folder, int jobs) {
+/// With a limit on the size of files it is killed by the system in the middle of writing one.
+::pid_t start_run(const fs::path& folder, int jobs, ::rlim_t largest_file = RLIM_INFINITY) {
   const ::pid_t child = ::fork();
   if (child != 0) return child;
+  const ::rlimit file_limit{largest_file, largest_file};
+  const ::rlimit no_core{0, 0};
+  if (largest_file != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &file_limit);
+  ::setrlimit(RLIMIT_CORE, &no_core);
   ::setenv(kFolderVariable, folder.c_str(), 1);
   ::setenv(kJobsVariable, std::to_string(jobs).c_str(), 1);
   const int quiet = ::open("/dev/null", O_WRONLY);
@@ -104,6 +110,29 @@ TEST_P(KilledRunTest, GivesTheSameRecordsAsOneThatWasLeftAlone) {
   EXPECT_EQ(list_records(base / "killed").size(), plan.cells.size());
   EXPECT_TRUE(results_of(base / "killed") == results_of(base / "alone"));
   for (const auto& item : fs::directory_iterator(base / "killed" / "records")) {
+    EXPECT_EQ(item.path().extension(), ".h5");
+  }
+}
+
+TEST(KillTest, InTheMiddleOfWritingARecordLeavesNone) {
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path() / "killed";
+  int status = 0;
+  const ::pid_t child = start_run(folder, 1, 10000);
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ASSERT_EQ(WTERMSIG(status), SIGXFSZ);
+  EXPECT_TRUE(list_records(folder).empty());
+  std::size_t half_written = 0;
+  for (const auto& item : fs::directory_iterator(folder / "records")) {
+    half_written += item.file_size() == 10000;
+  }
+  EXPECT_EQ(half_written, 1);
+
+  const ToyWorld world;
+  const Catalog catalog = world.catalog();
+  EXPECT_TRUE(run_suite(kill_plan(catalog), catalog, {.folder = folder, .jobs = 2}).complete());
+  for (const auto& item : fs::directory_iterator(folder / "records")) {
     EXPECT_EQ(item.path().extension(), ".h5");
   }
 }
