@@ -26,9 +26,8 @@ void check(const VoxelGrid<float>& field, const SegmentationOptions& options) {
     throw InputError(fmt::format(
         "the field's size is {} x {} x {}; every side needs at least one voxel", nx, ny, nz));
   }
-  // Two bytes fewer than the limit each, so that the product cannot overflow.
   const auto largest = static_cast<double>(max_flood_voxels);
-  if ((nx + 2.0) * (ny + 2.0) * (nz + 2.0) >= largest) {
+  if ((nx + 3.0) * (ny + 3.0) * (nz + 3.0) >= largest) {
     throw InputError(fmt::format(
         "the field has {} x {} x {} voxels; segmentation takes fewer than 2^31 with a rim of one "
         "voxel: use a coarser grid",
@@ -58,8 +57,10 @@ void check(const VoxelGrid<float>& field, const SegmentationOptions& options) {
 /// Voxels per label; entry 0: those of the mask that have none.
 std::vector<std::int64_t> voxels_by_label(const FloodGrid& grid, std::int32_t count) {
   std::vector<std::int64_t> voxels(count + 1, 0);
-  for (const std::int32_t label : grid.label) {
-    if (label != flood::wall) ++voxels[std::max(label, 0)];
+  for (const FloodGrid::Brick& brick : grid.storage) {
+    for (const auto& [height, label] : brick.cells) {
+      if (label != flood::wall) ++voxels[std::max(label, 0)];
+    }
   }
   return voxels;
 }
@@ -69,9 +70,9 @@ void apply_mask(const VoxelGrid<float>& field, float cage, FloodGrid& grid) {
   for (int k = 0; k < field.size[2]; ++k) {
     for (int j = 0; j < field.size[1]; ++j) {
       const float* from = &field.values[field.index(0, j, k)];
-      std::int32_t* to = &grid.label[grid.index(0, j, k)];
+      const std::int32_t to = grid.row(j, k);
       for (int i = 0; i < field.size[0]; ++i) {
-        if (from[i] + cage < 0) to[i] = flood::wall;
+        if (from[i] + cage < 0) grid.label(to + FloodGrid::column(i)) = flood::wall;
       }
     }
   }
@@ -92,10 +93,11 @@ void write_labels(const FloodGrid& grid, const std::vector<std::int32_t>& number
                   VoxelGrid<std::int32_t>& labels) {
   for (int k = 0; k < labels.size[2]; ++k) {
     for (int j = 0; j < labels.size[1]; ++j) {
-      const std::int32_t* from = &grid.label[grid.index(0, j, k)];
+      const std::int32_t from = grid.row(j, k);
       std::int32_t* to = &labels.values[labels.index(0, j, k)];
       for (int i = 0; i < labels.size[0]; ++i) {
-        to[i] = from[i] > 0 ? number[from[i]] : from[i] == flood::wall ? -1 : 0;
+        const std::int32_t label = grid.label(from + FloodGrid::column(i));
+        to[i] = label > 0 ? number[label] : label == flood::wall ? -1 : 0;
       }
     }
   }
@@ -115,9 +117,9 @@ Segmentation caged_sdf_segmentation(const VoxelGrid<float>& field,
 
   const auto cage = static_cast<float>(result.cage);
   FloodGrid grid = make_flood_grid(field, cage, !options.parity, options.threads);
-  const ExtendedMinima minima = label_extended_minima(grid, static_cast<float>(options.h));
+  const ExtendedMinima minima =
+      label_extended_minima(grid, static_cast<float>(options.h), options.threads);
   flood_watershed(grid, minima);
-  grid.height = {};
   if (options.parity) apply_mask(field, cage, grid);
 
   const std::vector<std::int64_t> voxels = voxels_by_label(grid, minima.count);

@@ -22,6 +22,6 @@ struct ExtendedMinima {
 /// parts C of the sets {height <= min(C) + h}, sums rounded to float, so each is flooded from its
 /// lowest voxel. Going through the minima of the relief from low to high, a flood that meets an
 /// earlier one is no extended minimum, and no voxel is visited twice.
-ExtendedMinima label_extended_minima(FloodGrid& grid, float h);
+ExtendedMinima label_extended_minima(FloodGrid& grid, float h, int threads = 1);
 
 }  // namespace fracbench

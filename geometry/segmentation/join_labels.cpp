@@ -10,12 +10,12 @@ namespace fracbench {
 namespace {
 
 /// The label that most neighbours carry, of equal ones the lowest; 0 where none carries one.
-std::int32_t common_label(const FloodGrid& grid, std::int32_t voxel,
-                          const std::array<std::int32_t, 6>& steps) {
+std::int32_t common_label(const FloodGrid& grid, std::int32_t voxel) {
   std::array<std::int32_t, 6> labels;
   int count = 0;
-  for (const std::int32_t step : steps) {
-    if (grid.label[voxel + step] > 0) labels[count++] = grid.label[voxel + step];
+  for (const std::int32_t step : grid.steps(voxel)) {
+    const std::int32_t label = grid.label(voxel + step);
+    if (label > 0) labels[count++] = label;
   }
   std::int32_t best = 0;
   std::ptrdiff_t best_share = 0;
@@ -35,15 +35,14 @@ using Borders = std::vector<std::map<std::int32_t, std::int64_t>>;
 Borders borders_of_small_labels(const FloodGrid& grid, const std::vector<std::int64_t>& voxels,
                                 std::int64_t minimum) {
   Borders borders(voxels.size());
-  const std::array<std::int32_t, 3> steps{1, grid.row, grid.plane};
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
-      const std::int32_t first = grid.index(0, j, k);
-      for (std::int32_t voxel = first; voxel < first + grid.size[0]; ++voxel) {
-        const std::int32_t label = grid.label[voxel];
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const std::int32_t voxel = grid.index(i, j, k), label = grid.label(voxel);
         if (label <= 0) continue;
-        for (const std::int32_t step : steps) {
-          const std::int32_t other = grid.label[voxel + step];
+        const FloodGrid::Steps& steps = grid.steps(voxel);
+        for (const std::int32_t step : {steps[3], steps[4], steps[5]}) {  // each pair once
+          const std::int32_t other = grid.label(voxel + step);
           if (other <= 0 || other == label) continue;
           if (voxels[label] < minimum || voxels[other] < minimum) {
             ++borders[label][other];
@@ -60,25 +59,23 @@ Borders borders_of_small_labels(const FloodGrid& grid, const std::vector<std::in
 
 std::int64_t give_dams_to_labels(FloodGrid& grid) {
   std::vector<std::int32_t> waiting;
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1]; ++j) {
-      const std::int32_t first = grid.index(0, j, k);
-      for (std::int32_t voxel = first; voxel < first + grid.size[0]; ++voxel) {
-        if (grid.label[voxel] <= 0 && grid.label[voxel] != flood::wall) waiting.push_back(voxel);
-      }
+  for (std::size_t brick = 0; brick < grid.storage.size(); ++brick) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::int32_t label = grid.storage[brick].cells[i].label;
+      if (label > 0 || label == flood::wall) continue;
+      waiting.push_back(static_cast<std::int32_t>(8 * brick + i));
     }
   }
-  const std::array<std::int32_t, 6> steps = grid.steps();
   std::vector<std::pair<std::int32_t, std::int32_t>> given;  // voxel and label, for one round
   std::int64_t total = 0;
   do {
     given.clear();
     std::erase_if(waiting, [&](std::int32_t voxel) {
-      const std::int32_t label = common_label(grid, voxel, steps);
+      const std::int32_t label = common_label(grid, voxel);
       if (label > 0) given.emplace_back(voxel, label);
       return label > 0;
     });
-    for (const auto& [voxel, label] : given) grid.label[voxel] = label;
+    for (const auto& [voxel, label] : given) grid.label(voxel) = label;
     total += static_cast<std::int64_t>(given.size());
   } while (!given.empty());
   return total;

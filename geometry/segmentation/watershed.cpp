@@ -12,8 +12,7 @@ constexpr std::uint32_t scout = 0x80000000u;  // marks entries that carry a heig
 
 class Flooding {
  public:
-  Flooding(FloodGrid& grid, std::size_t voxels)
-      : grid_(grid), steps_(grid.steps()), queue_(highest_relief, voxels) {}
+  Flooding(FloodGrid& grid, std::size_t voxels) : grid_(grid), queue_(highest_relief, voxels) {}
 
   void start(const std::vector<std::int32_t>& minima) {
     for (const std::int32_t voxel : minima) reach_neighbours(voxel, 0);
@@ -26,11 +25,11 @@ class Flooding {
       if (const FloodQueue::Entry* next = queue_.upcoming(4)) prefetch(*next);
       if ((entry.item & scout) != 0) {
         // Where a label has reached the voxel since, its own entry has the same height.
-        if (grid_.label[voxel] == flood::reached) scout_neighbours(voxel, entry.value);
+        if (grid_.label(voxel) == flood::reached) scout_neighbours(voxel, entry.value);
         continue;
       }
       const std::int32_t label = label_beside(voxel);
-      grid_.label[voxel] = label;
+      grid_.label(voxel) = label;
       if (label == flood::dam) {
         scout_neighbours(voxel, entry.value);
       } else {
@@ -44,58 +43,56 @@ class Flooding {
   std::int32_t label_beside(std::int32_t voxel) const {
     std::int32_t label = 0;
     bool is_dam = false;
-    for (const std::int32_t step : steps_) {
-      const std::int32_t other = grid_.label[voxel + step];
+    for (const std::int32_t step : grid_.steps(voxel)) {
+      const std::int32_t other = grid_.label(voxel + step);
       is_dam |= (other > 0) & (label > 0) & (other != label);
       label = std::max(label, other);
     }
     return is_dam ? flood::dam : label;
   }
 
-  void impose(std::int32_t voxel, float level) {
-    grid_.height[voxel] = std::max(grid_.height[voxel] + 1.0f, level);
+  static void impose(FloodGrid::Cell& cell, float level) {
+    cell.height = std::max(cell.height + 1.0f, level);
   }
 
   void reach_neighbours(std::int32_t voxel, float level) {
-    for (const std::int32_t step : steps_) {
-      const std::int32_t to = voxel + step;
-      const std::int32_t state = grid_.label[to];
-      if (state != flood::untouched && state != flood::reached) continue;
-      if (state == flood::untouched) impose(to, level);
-      grid_.label[to] = flood::queued;
-      queue_.push({grid_.height[to], static_cast<std::uint32_t>(to)});
+    for (const std::int32_t step : grid_.steps(voxel)) {
+      FloodGrid::Cell& to = grid_.cell(voxel + step);
+      if (to.label != flood::untouched && to.label != flood::reached) continue;
+      if (to.label == flood::untouched) impose(to, level);
+      to.label = flood::queued;
+      queue_.push({to.height, static_cast<std::uint32_t>(voxel + step)});
     }
   }
 
   /// Keeps the imposed heights right behind a dam.
   void scout_neighbours(std::int32_t voxel, float level) {
-    for (const std::int32_t step : steps_) {
-      const std::int32_t to = voxel + step;
-      if (grid_.label[to] != flood::untouched) continue;
+    for (const std::int32_t step : grid_.steps(voxel)) {
+      FloodGrid::Cell& to = grid_.cell(voxel + step);
+      if (to.label != flood::untouched) continue;
       impose(to, level);
-      grid_.label[to] = flood::reached;
-      queue_.push({grid_.height[to], static_cast<std::uint32_t>(to) | scout});
+      to.label = flood::reached;
+      queue_.push({to.height, static_cast<std::uint32_t>(voxel + step) | scout});
     }
   }
 
   void prefetch(const FloodQueue::Entry& entry) const {
     const auto voxel = static_cast<std::int32_t>(entry.item & ~scout);
-    for (const std::int32_t step : {-grid_.plane, -grid_.row, 0, grid_.row, grid_.plane}) {
-      __builtin_prefetch(&grid_.label[voxel + step]);
-      __builtin_prefetch(&grid_.height[voxel + step]);
-    }
+    for (const std::int32_t step : grid_.steps(voxel))
+      __builtin_prefetch(&grid_.cell(voxel + step));
   }
 
   FloodGrid& grid_;
-  std::array<std::int32_t, 6> steps_;
   FloodQueue queue_;
 };
 
 }  // namespace
 
 void flood_watershed(FloodGrid& grid, const ExtendedMinima& minima) {
-  const auto voxels =
-      static_cast<std::size_t>(std::count(grid.label.begin(), grid.label.end(), flood::untouched));
+  std::size_t voxels = 0;
+  for (const FloodGrid::Brick& brick : grid.storage) {
+    for (const FloodGrid::Cell& cell : brick.cells) voxels += cell.label == flood::untouched;
+  }
   Flooding flooding(grid, voxels);
   flooding.start(minima.voxels);
   flooding.run();

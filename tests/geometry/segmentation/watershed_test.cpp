@@ -33,8 +33,8 @@ TEST(Watershed, LabelsNeverTouchEachOther) {
     for (int j = 0; j < 32; ++j) {
       for (int i = 0; i < 32; ++i) {
         const std::int32_t voxel = grid.index(i, j, k);
-        for (const std::int32_t step : grid.steps()) {
-          const std::int32_t a = grid.label[voxel], b = grid.label[voxel + step];
+        for (const std::int32_t step : grid.steps(voxel)) {
+          const std::int32_t a = grid.label(voxel), b = grid.label(voxel + step);
           ASSERT_TRUE(a <= 0 || b <= 0 || a == b) << i << " " << j << " " << k;
         }
       }
