@@ -1,6 +1,8 @@
 #include "geometry/segmentation/watershed.h"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 #include "geometry/segmentation/flood_queue.h"
 
@@ -15,7 +17,7 @@ class Flooding {
   Flooding(FloodGrid& grid, std::size_t voxels) : grid_(grid), queue_(highest_relief, voxels) {}
 
   void start(const std::vector<std::int32_t>& minima) {
-    for (const std::int32_t voxel : minima) reach_neighbours(voxel, 0);
+    for (const std::int32_t voxel : minima) reach_neighbours(voxel, look_around(voxel).open, 0);
   }
 
   void run() {
@@ -28,40 +30,47 @@ class Flooding {
         if (grid_.label(voxel) == flood::reached) scout_neighbours(voxel, entry.value);
         continue;
       }
-      const std::int32_t label = label_beside(voxel);
-      grid_.label(voxel) = label;
-      if (label == flood::dam) {
+      const Surroundings around = look_around(voxel);
+      grid_.label(voxel) = around.label;
+      if (around.label == flood::dam) {
         scout_neighbours(voxel, entry.value);
       } else {
-        reach_neighbours(voxel, entry.value);
+        reach_neighbours(voxel, around.open, entry.value);
       }
     }
   }
 
  private:
-  /// The only label among the neighbours; a dam where there are several.
-  std::int32_t label_beside(std::int32_t voxel) const {
-    std::int32_t label = 0;
-    bool is_dam = false;
-    for (const std::int32_t step : grid_.steps(voxel)) {
-      const std::int32_t other = grid_.label(voxel + step);
-      is_dam |= (other > 0) & (label > 0) & (other != label);
-      label = std::max(label, other);
+  struct Surroundings {
+    std::int32_t label;  ///< the only one among the neighbours; a dam where there are several
+    unsigned open;       ///< bit i: no label has touched the neighbour i
+  };
+
+  Surroundings look_around(std::int32_t voxel) const {
+    const FloodGrid::Steps& steps = grid_.steps(voxel);
+    std::int32_t highest = 0, lowest = std::numeric_limits<std::int32_t>::max();
+    unsigned open = 0;
+    for (int i = 0; i < 6; ++i) {
+      const std::int32_t label = grid_.label(voxel + steps[i]);
+      highest = std::max(highest, label);
+      lowest = std::min(lowest, label > 0 ? label : lowest);
+      open |= static_cast<unsigned>((label == flood::untouched) | (label == flood::reached)) << i;
     }
-    return is_dam ? flood::dam : label;
+    return {highest == lowest ? highest : flood::dam, open};
   }
 
   static void impose(FloodGrid::Cell& cell, float level) {
     cell.height = std::max(cell.height + 1.0f, level);
   }
 
-  void reach_neighbours(std::int32_t voxel, float level) {
-    for (const std::int32_t step : grid_.steps(voxel)) {
-      FloodGrid::Cell& to = grid_.cell(voxel + step);
-      if (to.label != flood::untouched && to.label != flood::reached) continue;
+  void reach_neighbours(std::int32_t voxel, unsigned open, float level) {
+    const FloodGrid::Steps& steps = grid_.steps(voxel);
+    for (; open != 0; open &= open - 1) {
+      const std::int32_t neighbour = voxel + steps[std::countr_zero(open)];
+      FloodGrid::Cell& to = grid_.cell(neighbour);
       if (to.label == flood::untouched) impose(to, level);
       to.label = flood::queued;
-      queue_.push({to.height, static_cast<std::uint32_t>(voxel + step)});
+      queue_.push({to.height, static_cast<std::uint32_t>(neighbour)});
     }
   }
 
