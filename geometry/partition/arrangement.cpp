@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "geometry/exact_predicates.h"
+#include "geometry/line_crossing.h"
 #include "geometry/measures.h"
 #include "geometry/partition/split_face.h"
 #include "geometry/surface_distance.h"
@@ -204,6 +205,17 @@ std::int32_t region_at(const Vec3& point, const InterfaceMesh& interfaces,
   throw NotGeneric("a vertex of the body lies on an interface");
 }
 
+/// Winding number of the body around a point that is not on its surface.
+bool is_inside(const TriangleMesh& body, const Vec3& point) {
+  int winding = 0;
+  for (std::size_t f = 0; f < body.faces.size(); ++f) {
+    const Vec3 &a = body.corner(f, 0), &b = body.corner(f, 1), &c = body.corner(f, 2);
+    const int crossing = line_crossing(a, b, c, point.y(), point.z());
+    if (crossing != 0 && !is_beyond(a, b, c, crossing, point)) winding += crossing;
+  }
+  return winding != 0;
+}
+
 std::vector<std::uint8_t> flags(std::size_t count, const std::vector<std::int32_t>& set) {
   std::vector<std::uint8_t> result(count, 0);
   for (const std::int32_t n : set) result[n] = 1;
@@ -227,11 +239,15 @@ Arrangement arrange(const TriangleMesh& body, const InterfaceMesh& interfaces,
   const auto body_region = vertex_sides(body_side, body_splits, body_cut, [&](std::int32_t v) {
     return region_at(body.vertices[v], interfaces, lattice.region);
   });
+  constexpr int few = 32;  // for more points, a tree over the faces is quicker
+  int asked = 0;
   std::optional<SurfaceDistance> surface;
   const auto interface_inside =
       vertex_sides(interface_side, interface_splits, interface_cut, [&](std::int32_t v) {
+        const Vec3& point = interfaces.mesh.vertices[v];
+        if (++asked <= few) return is_inside(body, point) ? 1 : 0;
         if (!surface) surface.emplace(body);
-        return surface->inside(interfaces.mesh.vertices[v]) ? 1 : 0;
+        return surface->inside(point) ? 1 : 0;
       });
 
   Arrangement result;

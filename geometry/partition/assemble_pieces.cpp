@@ -19,32 +19,99 @@ struct CellFace {
   std::int32_t part;
 };
 
-/// The mesh of some faces, with the vertices in the order of the arrangement.
-TriangleMesh mesh_of(const Arrangement& arrangement, const std::vector<CellFace>& faces) {
-  TriangleMesh mesh;
-  mesh.faces.reserve(faces.size());
-  for (const CellFace& f : faces) {
-    if (f.kind == CellFace::Kind::body) {
-      mesh.faces.push_back(arrangement.body[f.part].corners);
-    } else {
-      Face corners = arrangement.interfaces[f.part].corners;
+/// Makes meshes of faces. Keeps room for one number per vertex of the arrangement, so that a mesh
+/// takes time in proportion to its own size.
+class MeshMaker {
+ public:
+  explicit MeshMaker(const Arrangement& arrangement)
+      : arrangement_(arrangement), number_(arrangement.vertices.size(), -1) {}
+
+  /// With the vertices in the order of the arrangement.
+  TriangleMesh mesh_of(const std::vector<CellFace>& faces) {
+    TriangleMesh mesh;
+    mesh.faces.reserve(faces.size());
+    std::vector<std::int32_t> used;
+    used.reserve(faces.size() / 2 + 2);
+    for (const CellFace& f : faces) {
+      const bool body = f.kind == CellFace::Kind::body;
+      Face corners =
+          body ? arrangement_.body[f.part].corners : arrangement_.interfaces[f.part].corners;
       if (f.kind == CellFace::Kind::above) std::swap(corners[1], corners[2]);
+      for (const std::int32_t v : corners) {
+        if (number_[v] >= 0) continue;
+        number_[v] = 0;
+        used.push_back(v);
+      }
       mesh.faces.push_back(corners);
     }
+    std::sort(used.begin(), used.end());
+    mesh.vertices.reserve(used.size());
+    for (const std::int32_t v : used) {
+      number_[v] = static_cast<std::int32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(arrangement_.vertices[v]);
+    }
+    for (Face& f : mesh.faces) {
+      for (std::int32_t& v : f) v = number_[v];
+    }
+    for (const std::int32_t v : used) number_[v] = -1;
+    return mesh;
   }
-  std::vector<std::int32_t> used;
-  used.reserve(3 * mesh.faces.size());
-  for (const Face& f : mesh.faces) used.insert(used.end(), f.begin(), f.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (Face& f : mesh.faces) {
-    for (std::int32_t& v : f) {
-      v = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+
+ private:
+  const Arrangement& arrangement_;
+  std::vector<std::int32_t> number_;
+};
+
+/// Calls work(i, maker) for every i below `count`, with a maker per thread.
+template <typename Work>
+void parallel_meshes(const Arrangement& arrangement, std::size_t count, int threads,
+                     const Work& work) {
+  const std::size_t workers = std::clamp<std::size_t>(count, 1, std::max(1, threads));
+  parallel_for(workers, threads, [&](std::size_t worker) {
+    MeshMaker maker(arrangement);
+    for (std::size_t i = worker; i < count; i += workers) work(i, maker);
+  });
+}
+
+/// The faces of each connected solid of a closed manifold.
+std::vector<std::vector<std::int32_t>> solids_of(const TriangleMesh& mesh) {
+  std::vector<std::int32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Face& f : mesh.faces) {
+    for (int k = 1; k < 3; ++k) {
+      const std::int32_t a = root(f[0]), b = root(f[k]);
+      if (a != b) parent[std::max(a, b)] = std::min(a, b);
     }
   }
-  mesh.vertices.reserve(used.size());
-  for (const std::int32_t v : used) mesh.vertices.push_back(arrangement.vertices[v]);
-  return mesh;
+  std::vector<std::vector<std::int32_t>> shells;
+  std::vector<std::int32_t> shell_of(parent.size(), -1);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    std::int32_t& shell = shell_of[root(mesh.faces[f][0])];
+    if (shell < 0) {
+      shell = static_cast<std::int32_t>(shells.size());
+      shells.emplace_back();
+    }
+    shells[shell].push_back(static_cast<std::int32_t>(f));
+  }
+  if (shells.size() == 1) return shells;
+  // Several solids, unless one of the shells bounds a cavity.
+  for (const auto& shell : shells) {
+    Sum volume6;
+    const Vec3 origin = mesh.corner(shell.front(), 0);
+    for (const std::int32_t f : shell) {
+      volume6 += (mesh.corner(f, 0) - origin)
+                     .dot((mesh.corner(f, 1) - origin).cross(mesh.corner(f, 2) - origin));
+    }
+    if (volume6.value() > 0) continue;
+    std::vector<std::vector<std::int32_t>> solids;
+    for (MeshPart& part : solid_components(mesh)) solids.push_back(std::move(part.source_face));
+    return solids;
+  }
+  return shells;
 }
 
 /// The connected solids of all regions.
@@ -53,6 +120,9 @@ struct Cells {
   std::vector<double> volume;
   std::vector<std::int32_t> of_body;                      ///< per part
   std::vector<std::array<std::int32_t, 2>> of_interface;  ///< per part: below, above
+  /// Per cell its mesh, where it is the only one of its region (else empty); the faces in the order
+  /// of the arrangement's parts.
+  std::vector<TriangleMesh> mesh;
 };
 
 Cells find_cells(const Arrangement& arrangement, std::size_t regions, int threads) {
@@ -69,15 +139,26 @@ Cells find_cells(const Arrangement& arrangement, std::size_t regions, int thread
   struct Found {
     std::vector<std::vector<std::int32_t>> faces;  // per solid, into those of the region
     std::vector<double> volume;
+    TriangleMesh mesh;
   };
   std::vector<Found> found(regions + 1);
-  parallel_for(regions, threads, [&](std::size_t n) {
-    const std::size_t r = n + 1;
-    if (faces[r].empty()) return;
-    for (const MeshPart& part : solid_components(mesh_of(arrangement, faces[r]))) {
-      found[r].faces.push_back(part.source_face);
-      found[r].volume.push_back(volume(part.mesh));
+  parallel_meshes(arrangement, regions, threads, [&](std::size_t n, MeshMaker& maker) {
+    const std::vector<CellFace>& own = faces[n + 1];
+    if (own.empty()) return;
+    Found& here = found[n + 1];
+    here.mesh = maker.mesh_of(own);
+    here.faces = solids_of(here.mesh);
+    if (here.faces.size() == 1) {
+      here.volume.push_back(volume(here.mesh));
+      return;
     }
+    std::vector<CellFace> part;
+    for (const auto& solid : here.faces) {
+      part.clear();
+      for (const std::int32_t f : solid) part.push_back(own[f]);
+      here.volume.push_back(volume(maker.mesh_of(part)));
+    }
+    here.mesh = {};
   });
   Cells cells;
   cells.of_body.assign(arrangement.body.size(), -1);
@@ -87,6 +168,7 @@ Cells find_cells(const Arrangement& arrangement, std::size_t regions, int thread
       const auto cell = static_cast<std::int32_t>(cells.region.size());
       cells.region.push_back(static_cast<std::int32_t>(r));
       cells.volume.push_back(found[r].volume[solid]);
+      cells.mesh.push_back(std::move(found[r].mesh));
       for (const std::int32_t f : found[r].faces[solid]) {
         const CellFace& face = faces[r][f];
         if (face.kind == CellFace::Kind::body) {
@@ -173,7 +255,7 @@ void report_labels(const std::vector<std::int32_t>& labels, PartitionReport& rep
 Partition assemble_pieces(const Arrangement& arrangement, const std::vector<std::int32_t>& labels,
                           double minimum_volume, int threads) {
   Partition partition;
-  const Cells cells = find_cells(arrangement, labels.size(), threads);
+  Cells cells = find_cells(arrangement, labels.size(), threads);
   const auto target = merge_small_cells(arrangement, cells, minimum_volume, partition.report);
   // Cells are by ascending region, hence by ascending label.
   std::vector<std::int32_t> piece_of(cells.region.size(), -1);
@@ -200,8 +282,15 @@ Partition assemble_pieces(const Arrangement& arrangement, const std::vector<std:
     partition.pieces[below].faces.push_back({-1, above});
     partition.pieces[above].faces.push_back({-1, below});
   }
-  parallel_for(faces.size(), threads, [&](std::size_t piece) {
-    partition.pieces[piece].mesh = mesh_of(arrangement, faces[piece]);
+  std::vector<std::int32_t> only_cell(faces.size(), -1);  // -2: made of several
+  for (std::size_t c = 0; c < piece_of.size(); ++c) {
+    std::int32_t& only = only_cell[piece_of[c]];
+    only = only == -1 ? static_cast<std::int32_t>(c) : -2;
+  }
+  parallel_meshes(arrangement, faces.size(), threads, [&](std::size_t piece, MeshMaker& maker) {
+    const std::int32_t cell = only_cell[piece];
+    const bool made = cell >= 0 && !cells.mesh[cell].empty();
+    partition.pieces[piece].mesh = made ? std::move(cells.mesh[cell]) : maker.mesh_of(faces[piece]);
   });
   report_labels(labels, partition.report);
   return partition;

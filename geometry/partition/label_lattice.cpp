@@ -58,7 +58,7 @@ void check_placement(const BoundingBox& box, const VoxelGrid<std::int32_t>& labe
 
 /// 1 at the samples that lie inside the mesh.
 std::vector<std::uint8_t> inside_samples(const TriangleMesh& mesh,
-                                         const VoxelGrid<std::int32_t>& grid) {
+                                         const VoxelGrid<std::int32_t>& grid, int threads) {
   std::vector<std::int8_t> change(grid.values.size(), 0);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Vec3 &a = mesh.corner(f, 0), &b = mesh.corner(f, 1), &c = mesh.corner(f, 2);
@@ -81,13 +81,17 @@ std::vector<std::uint8_t> inside_samples(const TriangleMesh& mesh,
     }
   }
   std::vector<std::uint8_t> inside(change.size(), 0);
-  for (std::size_t row = 0; row < change.size(); row += grid.size[0]) {
-    int winding = 0;
-    for (std::size_t i = row; i < row + grid.size[0]; ++i) {
-      winding += change[i];
-      inside[i] = winding != 0;
-    }
-  }
+  const auto row_length = static_cast<std::size_t>(grid.size[0]);
+  parallel_for(
+      change.size() / row_length, threads,
+      [&](std::size_t row) {
+        int winding = 0;
+        for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
+          winding += change[i];
+          inside[i] = winding != 0;
+        }
+      },
+      1024);
   return inside;
 }
 
@@ -125,7 +129,6 @@ std::vector<std::uint8_t> samples_near_surface(const TriangleMesh& mesh,
 void fill_nearest(VoxelGrid<std::int32_t>& region, const std::vector<std::uint8_t>& wanted) {
   const int nx = region.size[0], ny = region.size[1];
   const std::ptrdiff_t row = nx, slab = static_cast<std::ptrdiff_t>(nx) * ny;
-  std::vector<std::int32_t> source(region.values.size(), -1);
   const std::array<std::ptrdiff_t, 6> steps = {-slab, -row, -1, 1, row, slab};
   const auto place = [&](std::ptrdiff_t i) {
     return std::array<std::int64_t, 3>{i % nx, i / row % ny, i / slab};
@@ -141,6 +144,8 @@ void fill_nearest(VoxelGrid<std::int32_t>& region, const std::vector<std::uint8_
       }
     }
   }
+  if (layer.empty()) return;
+  std::vector<std::int32_t> source(region.values.size(), -1);
   std::vector<std::uint8_t> seen(region.values.size(), 0);
   for (const std::int32_t i : layer) seen[i] = 1;
   std::vector<std::int32_t> found, next;
@@ -186,6 +191,78 @@ void fill_nearest(VoxelGrid<std::int32_t>& region, const std::vector<std::uint8_
   }
 }
 
+/// Sets the regions of the wanted samples that have a label, and what the lattice knows of labels.
+void take_labels(const VoxelGrid<std::int32_t>& labels, const std::array<std::int32_t, 3>& base,
+                 const std::vector<std::uint8_t>& inside, const std::vector<std::uint8_t>& wanted,
+                 int threads, LabelLattice& lattice) {
+  VoxelGrid<std::int32_t>& region = lattice.region;
+  const auto slabs = static_cast<std::size_t>(region.size[2]);
+  struct Slab {
+    std::map<std::int32_t, std::size_t> inside;  // samples of each label; 0: only near the surface
+    std::size_t unlabelled_inside = 0;
+  };
+  std::vector<Slab> found(slabs);
+  // The label numbers first, in place of the regions.
+  parallel_for(slabs, threads, [&](std::size_t k) {
+    Slab& slab = found[k];
+    std::int32_t last_label = 0;
+    std::size_t* last = nullptr;
+    const int gk = static_cast<int>(k) + base[2];
+    for (int j = 0; j < region.size[1]; ++j) {
+      const int gj = j + base[1];
+      const bool row_in = gj >= 0 && gj < labels.size[1] && gk >= 0 && gk < labels.size[2];
+      std::size_t index = region.index(0, j, static_cast<int>(k));
+      for (int i = 0; i < region.size[0]; ++i, ++index) {
+        if (!wanted[index]) continue;
+        const int gi = i + base[0];
+        const std::int32_t label =
+            row_in && gi >= 0 && gi < labels.size[0] ? labels.at(gi, gj, gk) : 0;
+        if (label <= 0) {
+          slab.unlabelled_inside += inside[index];
+          continue;
+        }
+        if (!last || label != last_label) last = &slab.inside.try_emplace(label, 0).first->second;
+        last_label = label;
+        *last += inside[index];
+        region.values[index] = label;
+      }
+    }
+  });
+  std::map<std::int32_t, std::size_t> counts;
+  for (const Slab& slab : found) {
+    lattice.filled_voxels += slab.unlabelled_inside;
+    for (const auto& [label, count] : slab.inside) counts[label] += count;
+  }
+  if (counts.empty()) {
+    throw InputError(
+        "the label volume has no label (value above 0) inside the mesh: check its origin and "
+        "spacing");
+  }
+  // Labels count that have a voxel inside; where the whole mesh is thinner than a voxel, all.
+  const bool any_inside =
+      std::any_of(counts.begin(), counts.end(), [](const auto& c) { return c.second > 0; });
+  for (const auto& [label, count] : counts) {
+    (count > 0 || !any_inside ? lattice.labels : lattice.labels_outside).push_back(label);
+  }
+  parallel_for(slabs, threads, [&](std::size_t k) {
+    std::int32_t last_label = 0, last_region = 0;
+    for (std::size_t index = region.index(0, 0, static_cast<int>(k)),
+                     end = region.index(0, 0, static_cast<int>(k) + 1);
+         index < end; ++index) {
+      std::int32_t& value = region.values[index];
+      if (value == 0) continue;
+      if (value != last_label) {
+        last_label = value;
+        const auto at = std::lower_bound(lattice.labels.begin(), lattice.labels.end(), value);
+        last_region = at != lattice.labels.end() && *at == value
+                          ? static_cast<std::int32_t>(at - lattice.labels.begin()) + 1
+                          : 0;
+      }
+      value = last_region;
+    }
+  });
+}
+
 }  // namespace
 
 LabelLattice make_lattice(const TriangleMesh& mesh, const VoxelGrid<std::int32_t>& labels,
@@ -213,74 +290,11 @@ LabelLattice make_lattice(const TriangleMesh& mesh, const VoxelGrid<std::int32_t
   lattice.region =
       VoxelGrid<std::int32_t>(size, labels.position(base[0], base[1], base[2]), labels.spacing);
   VoxelGrid<std::int32_t>& region = lattice.region;
-  const std::vector<std::uint8_t> inside = inside_samples(mesh, region);
+  const std::vector<std::uint8_t> inside = inside_samples(mesh, region, threads);
   std::vector<std::uint8_t> wanted = samples_near_surface(mesh, region, threads);
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] |= inside[i];
 
-  // Which labels count: those with a voxel inside; where the whole mesh is thinner than a voxel,
-  // those around it.
-  struct Count {
-    std::size_t inside = 0;
-    std::int32_t region = 0;
-  };
-  std::map<std::int32_t, Count> counts;
-  std::int32_t last_label = 0;
-  Count* last = nullptr;
-  const auto count_of = [&](std::int32_t label) -> Count& {
-    if (!last || label != last_label) {
-      last = &counts[label];
-      last_label = label;
-    }
-    return *last;
-  };
-  bool any_inside = false, any_near = false;
-  const auto for_each_sample = [&](const auto& visit) {
-    for (int k = 0; k < size[2]; ++k) {
-      for (int j = 0; j < size[1]; ++j) {
-        const int gj = j + base[1], gk = k + base[2];
-        const bool row_in = gj >= 0 && gj < labels.size[1] && gk >= 0 && gk < labels.size[2];
-        for (int i = 0; i < size[0]; ++i) {
-          const std::size_t index = region.index(i, j, k);
-          if (!wanted[index]) continue;
-          const int gi = i + base[0];
-          const bool in = row_in && gi >= 0 && gi < labels.size[0];
-          visit(index, in ? labels.at(gi, gj, gk) : 0);
-        }
-      }
-    }
-  };
-  for_each_sample([&](std::size_t index, std::int32_t label) {
-    if (label <= 0) {
-      lattice.filled_voxels += inside[index];
-      return;
-    }
-    any_near = true;
-    if (inside[index]) {
-      any_inside = true;
-      ++count_of(label).inside;
-    }
-  });
-  if (!any_near) {
-    throw InputError(
-        "the label volume has no label (value above 0) inside the mesh: check its origin and "
-        "spacing");
-  }
-  for_each_sample([&](std::size_t, std::int32_t label) {
-    if (label <= 0) return;
-    Count& c = count_of(label);
-    if (!any_inside) ++c.inside;
-  });
-  for (auto& [label, c] : counts) {
-    if (c.inside == 0) {
-      lattice.labels_outside.push_back(label);
-    } else {
-      lattice.labels.push_back(label);
-      c.region = static_cast<std::int32_t>(lattice.labels.size());
-    }
-  }
-  for_each_sample([&](std::size_t index, std::int32_t label) {
-    if (label > 0) region.values[index] = count_of(label).region;
-  });
+  take_labels(labels, base, inside, wanted, threads, lattice);
 
   fill_nearest(region, wanted);
   // A second body of the mesh may be out of reach along the mesh: then straight through the void.
