@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "geometry/measures.h"
+#include "geometry/read_mesh.h"
 #include "scenarios/first_impact.h"
 #include "tests/scenarios/test_bodies.h"
 
@@ -180,7 +181,7 @@ TEST(Families, PublishedConditionsRunAndMostBreakSquirrel) {
       {"squirrel", 24}, {"base", 16}, {"pot_standin", 12}, {"bunny", 1}};
   for (const auto& [shape, count] : shapes) {
     const Target target = {.name = shape,
-                           .mesh = normalized(test::read_triangles(folder / (shape + ".obj")), 1.9),
+                           .mesh = normalized(read_mesh(folder / (shape + ".obj")), 1.9),
                            .material = {}};
     const auto scenes =
         scenes_of("published", {{"file", (folder / "published_collision_conditions.csv").string()}},

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
-#include <string>
 #include <utility>
 
 namespace fracbench::test {
@@ -175,31 +172,6 @@ std::filesystem::path mesh_folder() {
   const std::filesystem::path folder =
       std::filesystem::path(FRACBENCH_SOURCE_DIR) / ".." / "shared" / "meshes";
   return std::filesystem::exists(folder) ? folder : std::filesystem::path{};
-}
-
-TriangleMesh read_triangles(const std::filesystem::path& obj) {
-  TriangleMesh mesh;
-  std::ifstream file(obj);
-  std::string line;
-  while (std::getline(file, line)) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      Vec3 v;
-      words >> v.x() >> v.y() >> v.z();
-      mesh.vertices.push_back(v);
-    } else if (kind == "f") {
-      Face face;
-      for (std::int32_t& corner : face) {
-        std::string word;
-        words >> word;
-        corner = std::stoi(word) - 1;
-      }
-      mesh.faces.push_back(face);
-    }
-  }
-  return mesh;
 }
 
 }  // namespace fracbench::test

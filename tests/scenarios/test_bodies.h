@@ -55,7 +55,4 @@ class PlaneSplitter final : public Breakable {
 /// The folder of development meshes; empty where it is not there.
 std::filesystem::path mesh_folder();
 
-/// Reads vertices and triangles of an OBJ file that is known to be sound.
-TriangleMesh read_triangles(const std::filesystem::path& obj);
-
 }  // namespace fracbench::test
