@@ -73,6 +73,18 @@ TEST(TagFragments, both_sides_of_a_crack_carry_its_number_even_across_a_gap) {
   for (const FragmentFace& face : alone[0].faces) EXPECT_EQ(face.interface, -1);
 }
 
+TEST(TagFragments, a_chord_below_a_shallow_ridge_is_fracture_surface) {
+  // Its corners are on the body's surface, and its normal is near that of both flanks.
+  const std::vector<Column> ridge{{0, 0, 1}, {0.5, 0, 1.1}, {1, 0, 1}};
+  const std::vector<Column> flat{{0, 0, 1}, {1, 0, 1}};
+  const TriangleMesh body = slab(ridge, -1, -1).mesh;
+  const Fragment planed = slab(flat, -1, 7);
+  const Fragments found = tag_fragments(body, {planed.mesh});
+  for (std::size_t f = 0; f < planed.faces.size(); ++f) {
+    EXPECT_EQ(found[0].faces[f].is_fracture(), planed.faces[f].interface == 7) << f;
+  }
+}
+
 TEST(TagFragments, surface_off_the_body_or_turned_round_is_fracture_surface) {
   const TriangleMesh body = box();
   TriangleMesh shrunk = body;
