@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/context.h"
 #include "core/impact.h"
@@ -19,5 +21,9 @@ struct FirstImpact {
 /// takes milliseconds.
 std::optional<FirstImpact> find_first_impact(const Scenario& scenario, const Target& target,
                                              Context& context);
+
+/// The same for many scenes of one target, which is prepared only once.
+std::vector<std::optional<FirstImpact>> find_first_impacts(std::span<const Scenario> scenarios,
+                                                           const Target& target, Context& context);
 
 }  // namespace fracbench

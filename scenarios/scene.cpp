@@ -1,9 +1,13 @@
 #include "scenarios/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
 
+#include "core/error.h"
+#include "geometry/measures.h"
 #include "scenarios/break_test.h"
 #include "scenarios/first_impact.h"
 #include "scenarios/scene_bodies.h"
@@ -90,32 +94,21 @@ class SceneRun {
   Context& context_;
 };
 
-}  // namespace
-
-SceneResult run_scene(const Scenario& scenario, const Target& target,
-                      std::shared_ptr<const Breakable> breakable, Context& context) {
-  std::optional<SceneBodies> bodies;
-  {
-    const auto stage = context.timer.stage("rigid_body");
-    bodies.emplace(scenario, target, std::move(breakable));
-    bodies->record(0);
+/// Throws InputError where the target is no solid.
+std::shared_ptr<const SurfaceTree> surface_of(const Target& target) {
+  if (target.mesh.empty() || !(volume(target.mesh) > 0)) {
+    throw InputError(
+        fmt::format("target '{}' has no volume: it must be a closed mesh whose faces look outwards",
+                    target.name));
   }
-  SceneRun run(scenario, *bodies, context);
-  for (int frame = 1; frame <= scenario.frames; ++frame) {
-    context.stop_if_asked();
-    run.step(frame);
-    bodies->record(frame);
-    context.progress.update("rigid-body scene", static_cast<double>(frame) / scenario.frames);
-  }
-  run.result.fragments = bodies->fragments();
-  run.result.trajectory = bodies->take_trajectory();
-  return std::move(run.result);
+  return std::make_shared<SurfaceTree>(target.mesh);
 }
 
-std::optional<FirstImpact> find_first_impact(const Scenario& scenario, const Target& target,
-                                             Context& context) {
+std::optional<FirstImpact> first_impact(const Scenario& scenario, const Target& target,
+                                        const std::shared_ptr<const SurfaceTree>& surface,
+                                        Context& context) {
   const auto stage = context.timer.stage("rigid_body");
-  SceneBodies bodies(scenario, target, nullptr);
+  SceneBodies bodies(scenario, target, surface, nullptr);
   const int target_body = bodies.solids().begin()->first;
   std::optional<Impact> strongest;
   for (int frame = 1; frame <= scenario.frames; ++frame) {
@@ -133,6 +126,43 @@ std::optional<FirstImpact> find_first_impact(const Scenario& scenario, const Tar
   }
   if (!strongest) return std::nullopt;
   return FirstImpact{.impact = std::move(*strongest), .breaks = false};
+}
+
+}  // namespace
+
+SceneResult run_scene(const Scenario& scenario, const Target& target,
+                      std::shared_ptr<const Breakable> breakable, Context& context) {
+  std::optional<SceneBodies> bodies;
+  {
+    const auto stage = context.timer.stage("rigid_body");
+    bodies.emplace(scenario, target, surface_of(target), std::move(breakable));
+    bodies->record(0);
+  }
+  SceneRun run(scenario, *bodies, context);
+  for (int frame = 1; frame <= scenario.frames; ++frame) {
+    context.stop_if_asked();
+    run.step(frame);
+    bodies->record(frame);
+    context.progress.update("rigid-body scene", static_cast<double>(frame) / scenario.frames);
+  }
+  run.result.fragments = bodies->fragments();
+  run.result.trajectory = bodies->take_trajectory();
+  return std::move(run.result);
+}
+
+std::optional<FirstImpact> find_first_impact(const Scenario& scenario, const Target& target,
+                                             Context& context) {
+  return first_impact(scenario, target, surface_of(target), context);
+}
+
+std::vector<std::optional<FirstImpact>> find_first_impacts(std::span<const Scenario> scenarios,
+                                                           const Target& target, Context& context) {
+  const std::shared_ptr<const SurfaceTree> surface = surface_of(target);
+  std::vector<std::optional<FirstImpact>> found;
+  for (const Scenario& scenario : scenarios) {
+    found.push_back(first_impact(scenario, target, surface, context));
+  }
+  return found;
 }
 
 }  // namespace fracbench

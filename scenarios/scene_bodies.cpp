@@ -67,8 +67,9 @@ void require_free_start(const Scenario& scenario, const SceneBodies::Solid& targ
   }
 }
 
-RigidSolid rigid_solid(const TriangleMesh& mesh, const Material& material, Collider collider) {
-  return {.surface = std::make_shared<SurfaceTree>(mesh),
+RigidSolid rigid_solid(const TriangleMesh& mesh, std::shared_ptr<const SurfaceTree> surface,
+                       const Material& material, Collider collider) {
+  return {.surface = std::move(surface),
           .frame = mass_frame(mass_properties(mesh), material.density),
           .collider = std::move(collider),
           .material = material};
@@ -77,14 +78,9 @@ RigidSolid rigid_solid(const TriangleMesh& mesh, const Material& material, Colli
 }  // namespace
 
 SceneBodies::SceneBodies(const Scenario& scenario, const Target& target,
+                         std::shared_ptr<const SurfaceTree> surface,
                          std::shared_ptr<const Breakable> breakable)
     : scenario_(scenario), size_(bounding_box(target.mesh).longest_side()), world_(size_) {
-  if (target.mesh.empty() || !(volume(target.mesh) > 0)) {
-    throw InputError(
-        fmt::format("target '{}' has no volume: it must be a closed mesh whose faces "
-                    "look outwards",
-                    target.name));
-  }
   trajectory_.frame_seconds = scenario.time_step;
   Solid solid;
   solid.fragment = {.mesh = target.mesh, .faces = {}, .piece = -1, .parent = -1, .generation = 0};
@@ -92,7 +88,8 @@ SceneBodies::SceneBodies(const Scenario& scenario, const Target& target,
     solid.fragment.faces.push_back({.original_face = static_cast<std::int32_t>(f)});
   }
   solid.breakable = std::move(breakable);
-  solid.rigid = rigid_solid(target.mesh, scenario.material, box_collider(target.mesh));
+  solid.rigid =
+      rigid_solid(target.mesh, std::move(surface), scenario.material, box_collider(target.mesh));
   require_free_start(scenario, solid, target.name);
   solid.track = new_track(Track::Kind::target, 0);
   add_solid(std::move(solid), {});
@@ -181,7 +178,7 @@ Replacement SceneBodies::replace(int solid, std::vector<Piece> pieces, double ti
       throw MethodFailure(fmt::format("piece {} of {} has no volume", p, pieces.size()));
     }
     rigids.push_back(rigid_solid(
-        mesh, broken.rigid.material,
+        mesh, std::make_shared<SurfaceTree>(mesh), broken.rigid.material,
         make_collider(mesh, {.gap = kGapShare * size_, .tolerance = kToleranceShare * size_})));
     frames.push_back(rigids.back().frame);
   }

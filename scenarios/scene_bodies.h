@@ -19,9 +19,10 @@ namespace fracbench {
 /// The bodies of a scene while it runs: the balls, and the target or what became of it.
 class SceneBodies {
  public:
-  /// Sets up the start of the scene. Throws InputError for a ball that starts in the target or in
-  /// another ball.
+  /// Sets up the start of the scene. `surface` is that of the target's mesh. Throws InputError for
+  /// a ball that starts in the target or in another ball.
   SceneBodies(const Scenario& scenario, const Target& target,
+              std::shared_ptr<const SurfaceTree> surface,
               std::shared_ptr<const Breakable> breakable);
 
   struct Solid {

@@ -189,9 +189,8 @@ TEST(Families, PublishedConditionsRunAndMostBreakSquirrel) {
     EXPECT_EQ(scenes.size(), count) << shape;
     int breaking = 0;
     int hits = 0;
-    for (const Scenario& scenario : scenes) {
-      test::TestContext test;
-      const auto first = find_first_impact(scenario, target, test.context);
+    test::TestContext test;
+    for (const auto& first : find_first_impacts(scenes, target, test.context)) {
       hits += first.has_value();
       breaking += first && first->breaks;
     }

@@ -119,12 +119,14 @@ TEST(FirstImpact, BreaksSquirrelInAsManySinglesAsThePublishedRuns) {
   int hits = 0;
   int broken = 0;
   double slowest_breaking = 1e300;
-  for (const Scenario& scenario : family.scenes(options, "squirrel", 1)) {
-    TestContext test;
-    const auto first = find_first_impact(scenario, target, test.context);
+  const std::vector<Scenario> scenes = family.scenes(options, "squirrel", 1);
+  TestContext test;
+  const auto impacts = find_first_impacts(scenes, target, test.context);
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const auto& first = impacts[k];
     if (!first) continue;
     ++hits;
-    const double speed = scenario.balls[0].velocity.norm();
+    const double speed = scenes[k].balls[0].velocity.norm();
     broken += first->breaks;
     if (first->breaks) slowest_breaking = std::min(slowest_breaking, speed);
   }
