@@ -4,7 +4,7 @@
 
 namespace fracbench {
 
-nlohmann::ordered_json to_json(const RunResult& result) {
+nlohmann::ordered_json counts_as_json(const RunResult& result) {
   nlohmann::ordered_json json{{"cells", result.cells},
                               {"found", result.found},
                               {"complete", result.complete()},

@@ -30,6 +30,6 @@ struct RunResult {
 };
 
 /// "cells", "found", "complete", "stopped" and a count for each status by its name, 0 included.
-nlohmann::ordered_json to_json(const RunResult& result);
+nlohmann::ordered_json counts_as_json(const RunResult& result);
 
 }  // namespace fracbench

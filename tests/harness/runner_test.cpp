@@ -70,7 +70,7 @@ TEST_F(RunnerTest, MakesARecordForEveryCell) {
   EXPECT_EQ(result.counts.at(CellStatus::ok), 12);
   EXPECT_TRUE(result.complete());
   EXPECT_EQ(exit_code_of(result), ExitCode::good);
-  EXPECT_EQ(to_json(result).dump(),
+  EXPECT_EQ(counts_as_json(result).dump(),
             R"({"cells":12,"found":0,"complete":true,"stopped":false,"ok":12,"unbroken":0,)"
             R"("invalid":0,"timeout":0,"out-of-memory":0,"crash":0})");
   const RecordStore store(folder);
