@@ -34,14 +34,13 @@ void require_known_subcommand(const CLI::App& app, std::string_view first) {
     names.push_back(command->get_name());
     if (names.back() == first) return;
   }
-  throw fracbench::InputError(fmt::format("unknown subcommand '{}'{}; see fracbench --help", first,
-                                          fracbench::did_you_mean(first, names)));
+  throw fracbench::InputError(
+      fmt::format("unknown subcommand '{}'{}", first, fracbench::did_you_mean(first, names)));
 }
 
 fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
   using namespace fracbench;
   CLI::App app(kAbout, "fracbench");
-  app.footer(kFooter);
   app.set_version_flag("--version", [] {
     const BuildInfo& build = build_info();
     return fmt::format("fracbench {} ({}{})", build.version, build.revision,
@@ -56,6 +55,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
   add_score_command(app, chosen);
   add_list_command(app, chosen);
   add_doctor_command(app, chosen);
+  app.footer(kFooter);  // now, since subcommands would inherit it
 
   if (argc == 1) {
     fmt::print(stderr, "{}", app.help());

@@ -179,12 +179,15 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
       ->add_option(
           "--ball", a->balls,
           fmt::format("Shoot the standard ball: {}; once more for a second ball", kBallForm))
+      ->allow_extra_args(false)
       ->take_all();
   command->add_option("--impact", a->impact,
                       fmt::format("Give the impulse instead: {}", kImpactForm));
   command->add_option("--out", a->out, "Folder for fragments, fragments.glb and result.json")
       ->required();
-  command->add_option("--set", a->settings, "Option of the method: name=value")->take_all();
+  command->add_option("--set", a->settings, "Option of the method: name=value")
+      ->allow_extra_args(false)
+      ->take_all();
   command->add_option("--format", a->format, "Format of the fragments' files")
       ->check(CLI::IsMember({"obj", "ply", "stl", "glb"}))
       ->capture_default_str();

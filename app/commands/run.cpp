@@ -106,6 +106,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->add_option("--set", a->settings,
                    "Change a value of the suite: seed=7, repeats=3, method.cvd.sites=40, "
                    "scenario.single.count=10, shape.*.resolution=20")
+      ->allow_extra_args(false)
       ->take_all();
   command->add_option("--shard", a->shard, "Only part i of n of the cells: i/n");
   command->add_flag("--dry-run", a->dry_run, "Only say what there is to do, and what it costs");
