@@ -22,8 +22,6 @@ namespace fracbench {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct RunArguments {
   std::string suite;
   std::filesystem::path out;
@@ -34,14 +32,6 @@ struct RunArguments {
   bool dry_run = false;
   bool as_json = false;
 };
-
-Json to_json(const RunResult& result) {
-  Json json = {{"cells", result.cells}, {"found", result.found}, {"stopped", result.stopped}};
-  for (const CellStatus status : kCellStatuses) {
-    json[std::string(to_string(status))] = result.count(status);
-  }
-  return json;
-}
 
 void print_result(const RunResult& result, const RunArguments& arguments) {
   std::string counts;
