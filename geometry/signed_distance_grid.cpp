@@ -1,7 +1,10 @@
 #include "geometry/signed_distance_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -36,15 +39,14 @@ class InsideScan {
       : mesh_(mesh),
         x_(axis_coordinates(grid, 0)),
         y_(axis_coordinates(grid, 1)),
+        z_(axis_coordinates(grid, 2)),
         faces_of_slice_(grid.size[2]) {
-    const std::vector<double> z = axis_coordinates(grid, 2);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       const auto [low, high] =
           std::minmax({mesh.corner(f, 0).z(), mesh.corner(f, 1).z(), mesh.corner(f, 2).z()});
-      const auto [begin, end] = range_within(z, low, high);
+      const auto [begin, end] = range_within(z_, low, high);
       for (int k = begin; k < end; ++k) faces_of_slice_[k].push_back(static_cast<std::int32_t>(f));
     }
-    z_ = z;
   }
 
   /// For each sample of slice k, x fastest: not 0 where it is inside.
@@ -62,8 +64,8 @@ class InsideScan {
       }
     }
     for (std::size_t j = 0; j < y_.size(); ++j) {
-      for (std::size_t i = 1; i < stride; ++i)
-        winding[stride * j + i] += winding[stride * j + i - 1];
+      const auto line = winding.begin() + static_cast<std::ptrdiff_t>(stride * j);
+      std::partial_sum(line, line + static_cast<std::ptrdiff_t>(stride), line);
     }
     return winding;
   }

@@ -34,8 +34,10 @@ struct Shape {
 };
 
 /// The mesh of a named or filed shape, scaled so that the longest side of its bounding box is
-/// `longest_side` and its box is centred at the origin; checked. Throws InputError with the reason
-/// and the way out where it is missing or not a solid.
+/// `longest_side` and its box is centred at the origin; files are checked. What the safe repairs of
+/// geometry/repair_mesh.h mend is mended and noted; a mesh that is inside out is refused like one
+/// that is open, since turning it would be a guess. A name goes before a file of that name. Throws
+/// InputError with the reason and the way out where the shape is missing or not a solid.
 Shape load_shape(const ShapeRequest& request);
 
 }  // namespace fracbench

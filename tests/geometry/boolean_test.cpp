@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "geometry/check_mesh.h"
 #include "geometry/measures.h"
+#include "geometry/read_mesh.h"
 #include "tests/geometry/test_meshes.h"
 
 namespace fracbench {
@@ -141,6 +142,22 @@ TEST(Boolean, TheSlicesOfASolidFillIt) {
     });
     sum += volume(boolean(body, piece, intersection).mesh);
   }
+  EXPECT_NEAR(sum / volume(body), 1, 1e-12);
+}
+
+TEST(Boolean, TheSlicesOfTheSquirrelFillIt) {
+  const auto file = test_meshes::shared_mesh("squirrel.obj");
+  if (file.empty()) GTEST_SKIP() << "../shared/meshes/squirrel.obj is not there";
+  const TriangleMesh body = read_mesh(file);
+  // Slanted planes, so that nothing is special; the slabs share their planes bit for bit.
+  const Mat3 turn(Eigen::AngleAxisd(0.6, Vec3(1, -2, 0.5).normalized()));
+  const auto slab = [&](int i) {
+    return test_meshes::mapped(test_meshes::cube(), [&](const Vec3& v) {
+      return Vec3(turn * Vec3(-2 + 0.8 * (i + (v.x() > 0 ? 1 : 0)), 2 * v.y(), 2 * v.z()));
+    });
+  };
+  double sum = 0;
+  for (int i = 0; i < 5; ++i) sum += volume(boolean(body, slab(i), intersection).mesh);
   EXPECT_NEAR(sum / volume(body), 1, 1e-12);
 }
 

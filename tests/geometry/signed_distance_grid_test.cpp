@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "geometry/measures.h"
+#include "geometry/read_mesh.h"
 #include "geometry/surface_distance.h"
 #include "tests/geometry/reference_field.h"
 #include "tests/geometry/test_meshes.h"
@@ -112,6 +113,19 @@ TEST(SignedDistanceGrid, IsTheSameBytesForAnyNumberOfThreads) {
           std::memcmp(one.values.data(), many.values.data(), one.values.size() * sizeof(float)), 0)
           << name << " " << threads;
     }
+  }
+}
+
+TEST(SignedDistanceGrid, TheSquirrelIsExactAtRandomSamples) {
+  const auto file = test_meshes::shared_mesh("squirrel.obj");
+  if (file.empty()) GTEST_SKIP() << "../shared/meshes/squirrel.obj is not there";
+  const TriangleMesh mesh = read_mesh(file);
+  const VoxelGrid<float> grid = signed_distance_grid(mesh, unit_grid<float>(40));
+  Random random(6);
+  for (int n = 0; n < 400; ++n) {
+    const auto i = static_cast<int>(random.below(40)), j = static_cast<int>(random.below(40)),
+               k = static_cast<int>(random.below(40));
+    EXPECT_NEAR(grid.at(i, j, k), reference::signed_distance(mesh, grid.position(i, j, k)), 1e-7);
   }
 }
 
