@@ -2,13 +2,15 @@
 // is not there) cut by a Voronoi diagram of 20 sites, whole calls, at r = 64, 128 and 256.
 //
 // Limits on 2 cores: by default 20 ms, 150 ms and 1.5 s; under parity 45 ms, 400 ms and 5 s; memory
-// at r = 256 1.5 GB. Beside the time stand the limit, the peak of memory during the call (that of
+// at r = 256 1.5 GB. Beside the mean time stand the shortest one (of the clock, and of the
+// processor), the limit, the peak of memory during the call (that of
 // the field included, 4 bytes a voxel) and what was found.
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -90,6 +92,13 @@ double limit_ms(int r, bool parity) {
   }
 }
 
+/// Of all threads of this process: what a busy machine leaves comparable.
+double cpu_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 void segmentation(benchmark::State& state) {
   if (!std::filesystem::exists(kSquirrel)) return state.SkipWithError("no squirrel.obj");
   const auto r = static_cast<int>(state.range(0));
@@ -97,15 +106,18 @@ void segmentation(benchmark::State& state) {
   const VoxelGrid<float>& field = field_at(r);
   reset_peak_memory();
   Segmentation result;
-  double best = 1e9;
+  double best = 1e9, best_cpu = 1e9;
   for (auto _ : state) {
     result = {};
     const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = cpu_ms();
     result = caged_sdf_segmentation(field, {.parity = parity});
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     best = std::min(best, time.count());
+    best_cpu = std::min(best_cpu, cpu_ms() - cpu_start);
   }
   state.counters["min_ms"] = best;
+  state.counters["min_cpu_ms"] = best_cpu;
   state.counters["limit_ms"] = limit_ms(r, parity);
   state.counters["peak_MB"] = static_cast<double>(peak_memory()) / 1e6;
   state.counters["labels"] = result.count;
@@ -119,7 +131,7 @@ BENCHMARK(segmentation)
     ->ArgNames({"r", "parity"})
     ->ArgsProduct({{64, 128, 256}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
-    ->MinTime(2)
+    ->MinTime(1)
     ->UseRealTime();
 
 }  // namespace
