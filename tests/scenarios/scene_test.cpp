@@ -6,6 +6,9 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "geometry/measures.h"
@@ -121,6 +124,17 @@ TEST(Scene, GivesTheSameBytesTwice) {
   const BoxShot first = run_box(shot(), eighths(), {{.normal = Vec3::UnitX(), .offset = -0.3}});
   const BoxShot second = run_box(shot(), eighths(), {{.normal = Vec3::UnitX(), .offset = -0.3}});
   EXPECT_EQ(bytes_of(first.result), bytes_of(second.result));
+}
+
+TEST(Scene, GivesTheSameBytesBesideOtherScenes) {
+  const std::string alone = bytes_of(run_box(shot(), eighths()).result);
+  std::vector<std::string> together(8);
+  std::vector<std::thread> threads;
+  for (std::string& bytes : together) {
+    threads.emplace_back([&bytes] { bytes = bytes_of(run_box(shot(), eighths()).result); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const std::string& bytes : together) EXPECT_EQ(bytes, alone);
 }
 
 TEST(Scene, ConservesMomentumAtEachReplacementAndOverTheWholeScene) {
