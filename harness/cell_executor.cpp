@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -44,6 +45,15 @@ std::string complaint(const CellResult& cell, const Measurement& measurement,
                        ratio - 1, method.volume_tolerance);
   }
   return "";
+}
+
+/// Whether a fragment is a mesh at all, with a tag for each face. Others cannot be stored.
+bool is_mesh(const Fragment& fragment) {
+  const auto count = static_cast<std::int64_t>(fragment.mesh.vertices.size());
+  if (fragment.faces.size() != fragment.mesh.faces.size()) return false;
+  return std::ranges::all_of(fragment.mesh.faces, [&](const Face& face) {
+    return std::ranges::all_of(face, [&](std::int32_t v) { return v >= 0 && v < count; });
+  });
 }
 
 /// Measures a scene's result with the metrics of the result. What a metric throws is a mistake in
@@ -150,10 +160,20 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
                             .stages = {},
                             .threads = record.identity.threads};
     measure(result, catalog_.metrics, method.info, record.outcome);
+    if (const auto lost = std::erase_if(record.outcome.scene.fragments, std::not_fn(is_mesh))) {
+      record.outcome.notes.push_back(fmt::format("{} fragments that are no meshes left out", lost));
+      if (record.outcome.status == CellStatus::ok) fail(CellStatus::invalid, "no meshes");
+    }
   } catch (const Cancelled&) {
     throw;
-  } catch (const InputError&) {
-    throw;
+  } catch (const InputError& error) {
+    // Before it was ready, the method did not like its options: those are the user's. Afterwards
+    // it did not like what the scene brought.
+    if (!prepared.target) {
+      throw InputError(
+          fmt::format("{} with method '{}': {}", shape.label, method.label, error.what()));
+    }
+    fail(CellStatus::invalid, error.what());
   } catch (const MethodFailure& failure) {
     fail(CellStatus::invalid, failure.what());
   } catch (const std::bad_alloc&) {

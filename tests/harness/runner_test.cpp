@@ -126,17 +126,26 @@ TEST_F(RunnerTest, FailureIsARecordWithItsReason) {
       {"prepare", {CellStatus::invalid, "cannot work on this box"}},
       {"memory", {CellStatus::out_of_memory, "memory"}},
       {"error", {CellStatus::crash, "a mistake in the method"}},
+      {"input", {CellStatus::invalid, "this impact is not for me"}},
+      {"garbage", {CellStatus::invalid, "no meshes"}},
       {"leak", {CellStatus::invalid, "volume_ratio differs from 1 by -0.0"}}};
   for (const auto& [trouble, expected] : cases) {
     const Plan plan = plan_with({("method.*.trouble=" + trouble).c_str()});
     const RunResult result = run(plan, {.folder = base / trouble});
     EXPECT_EQ(result.counts.at(expected.first), 12) << trouble;
     EXPECT_EQ(exit_code_of(result), ExitCode::not_measured);
+    EXPECT_EQ(run(plan, {.folder = base / trouble}).found, 12) << "every record can be read";
     for (const CellSummary& cell : read_summaries(base / trouble)) {
       EXPECT_EQ(cell.status, expected.first);
       EXPECT_THAT(cell.reason, HasSubstr(expected.second));
     }
   }
+}
+
+TEST_F(RunnerTest, OptionsThatAMethodRefusesEndTheRunAndNameShapeAndMethod) {
+  EXPECT_THAT([&] { run(plan_with({"method.halves-wide.trouble=options"})); },
+              testing::ThrowsMessage<InputError>(
+                  HasSubstr("box with method 'halves-wide': these options cannot be met")));
 }
 
 TEST_F(RunnerTest, InvalidFragmentsAreKept) {

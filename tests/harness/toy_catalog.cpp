@@ -47,6 +47,8 @@ class HalvesBody : public Breakable {
     pieces.push_back(piece(low, {x, high.y(), high.z()}, 2, 1));
     if (trouble == "leak") x += margin / 2;
     pieces.push_back(piece({x, low.y(), low.z()}, high, 0, 0));
+    if (trouble == "garbage") pieces.back().mesh.faces[3] = {0, 1, 999};
+    if (trouble == "input") throw InputError("this impact is not for me");
     return pieces;
   }
 
@@ -103,10 +105,12 @@ class Halves : public Method {
              .fallback = std::string("none"),
              .unit = "",
              .summary = "what goes wrong",
-             .choices = {"none", "failure", "memory", "error", "leak", "prepare"}}};
+             .choices = {"none", "failure", "memory", "error", "leak", "prepare", "garbage",
+                         "input", "options"}}};
   }
   std::unique_ptr<Breakable> prepare(const Target& target, const LearningData&,
                                      const Options& options, Context&) const override {
+    if (options.text("trouble") == "options") throw InputError("these options cannot be met");
     if (options.text("trouble") == "prepare") throw MethodFailure("cannot work on this box");
     return std::make_unique<HalvesBody>(target, options);
   }
