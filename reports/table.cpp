@@ -11,6 +11,8 @@ template <typename... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // which clang asks for
 
 // Characters, not bytes: continuation bytes of UTF-8 take no room.
 std::size_t width(std::string_view text) {
