@@ -111,7 +111,8 @@ Table published_table(const std::vector<CellGroup>& groups) {
               .title = "Published times beside our own",
               .notes = {"Absolute times on other hardware cannot be compared: only ratios between "
                         "methods on one machine can. Measured: mean of the stage of that name, "
-                        "where the method was run on the shape."},
+                        "where the method was run on a shape of that name, which need not be the "
+                        "paper's mesh."},
               .columns = {{"shape"},
                           {"method"},
                           {"r"},
