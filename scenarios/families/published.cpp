@@ -41,7 +41,9 @@ std::vector<std::string> split(std::string_view line) {
   }
 }
 
-std::string_view prefix(std::string_view shape) { return shape.substr(0, shape.find('_')); }
+std::string_view prefix(std::string_view shape) {
+  return shape.substr(0, shape.find_first_of("_-"));
+}
 
 double number(const std::string& text, std::string_view column, const std::string& place) {
   double value = 0;
