@@ -123,6 +123,23 @@ TEST(Families, NearShearBlowsCrossTheBarOnBothSidesOfItsMiddle) {
   }
 }
 
+TEST(Families, NearShearBlowsMeetTheBarAtTheSameTimeAndBreakIt) {
+  const Target bar = {.name = "bar", .mesh = test::box({1.9, 0.3, 0.3}), .material = {}};
+  test::TestContext test;
+  for (const auto& first : find_first_impacts(scenes_of("near-shear"), bar, test.context)) {
+    ASSERT_TRUE(first);
+    EXPECT_TRUE(first->breaks);
+    // The bar is thrown to and fro between the balls within the step: each strikes at least once.
+    bool from_above = false;
+    bool from_below = false;
+    const Vec3 flight = first->impact.strikers.at(0).velocity;
+    for (const Impulse& impulse : first->impact.impulses) {
+      (impulse.direction.dot(flight) > 0 ? from_above : from_below) = true;
+    }
+    EXPECT_TRUE(from_above && from_below);
+  }
+}
+
 TEST(Families, SweepsHitHarderAtTheSameSpot) {
   double last = 0;
   for (const Scenario& scenario : scenes_of("sweep-strength")) {
