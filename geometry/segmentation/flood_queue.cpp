@@ -29,13 +29,13 @@ void sort_by_value(std::vector<FloodQueue::Entry>& entries) {
 
 }  // namespace
 
-FloodQueue::FloodQueue(float high, std::size_t expected_entries) {
+FloodQueue::FloodQueue(float low, float high, std::size_t expected_entries) : low_(low) {
   // About eight entries a bucket: one cache line.
   const std::size_t buckets =
       std::bit_ceil(std::clamp<std::size_t>(expected_entries / 8, 256, std::size_t{1} << 20));
   heads_.assign(buckets, -1);
   last_bucket_ = static_cast<float>(buckets - 1);
-  scale_ = last_bucket_ / high;
+  if (high > low) scale_ = last_bucket_ / (high - low);
 }
 
 std::int32_t FloodQueue::add_block(std::int32_t bucket) {

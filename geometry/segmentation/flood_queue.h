@@ -18,8 +18,8 @@ class FloodQueue {
     std::uint32_t item;
   };
 
-  /// Buckets divide [0, high] into equal parts; values beyond either end are allowed.
-  FloodQueue(float high, std::size_t expected_entries);
+  /// Buckets divide [low, high] into equal parts; values beyond either end are allowed.
+  FloodQueue(float low, float high, std::size_t expected_entries);
 
   void push(Entry entry) {
     const std::int32_t bucket = bucket_of(entry.value);
@@ -62,7 +62,7 @@ class FloodQueue {
   };
 
   std::int32_t bucket_of(float value) const {
-    const float scaled = value * scale_;
+    const float scaled = (value - low_) * scale_;
     if (!(scaled > 0)) return 0;
     return scaled < last_bucket_ ? static_cast<std::int32_t>(scaled)
                                  : static_cast<std::int32_t>(last_bucket_);
@@ -78,6 +78,7 @@ class FloodQueue {
   bool advance();
   Entry take_first();
 
+  float low_ = 0;
   float scale_ = 1;
   float last_bucket_ = 0;
   float last_ = 0;  ///< value popped last

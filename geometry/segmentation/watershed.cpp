@@ -14,7 +14,8 @@ constexpr std::uint32_t scout = 0x80000000u;  // marks entries that carry a heig
 
 class Flooding {
  public:
-  Flooding(FloodGrid& grid, std::size_t voxels) : grid_(grid), queue_(highest_relief, voxels) {}
+  Flooding(FloodGrid& grid, float lowest, std::size_t voxels)
+      : grid_(grid), queue_(lowest, highest_relief, voxels) {}
 
   void start(const std::vector<std::int32_t>& minima) {
     for (const std::int32_t voxel : minima) reach_neighbours(voxel, look_around(voxel).open, 0);
@@ -99,10 +100,15 @@ class Flooding {
 
 void flood_watershed(FloodGrid& grid, const ExtendedMinima& minima) {
   std::size_t voxels = 0;
+  float lowest = highest_relief;
   for (const FloodGrid::Brick& brick : grid.storage) {
-    for (const FloodGrid::Cell& cell : brick.cells) voxels += cell.label == flood::untouched;
+    for (const FloodGrid::Cell& cell : brick.cells) {
+      if (cell.label != flood::untouched) continue;
+      ++voxels;
+      lowest = std::min(lowest, cell.height + 1.0f);
+    }
   }
-  Flooding flooding(grid, voxels);
+  Flooding flooding(grid, std::max(lowest, 0.0f), voxels);
   flooding.start(minima.voxels);
   flooding.run();
 }

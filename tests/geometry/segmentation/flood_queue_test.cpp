@@ -13,10 +13,11 @@ namespace {
 
 /// Pushes and pops by chance on both queues; `draw` gives the next value from the last one popped.
 template <typename Draw>
-void expect_same_order(std::uint64_t seed, std::size_t expected_entries, const Draw& draw) {
+void expect_same_order(std::uint64_t seed, std::size_t expected_entries, const Draw& draw,
+                       float low = 0) {
   using Item = std::tuple<float, std::uint32_t>;  // items are numbered as they are pushed
   std::priority_queue<Item, std::vector<Item>, std::greater<>> plain;
-  FloodQueue queue(128, expected_entries);
+  FloodQueue queue(low, 128, expected_entries);
   Random random(seed);
   float last = 0;
   std::uint32_t items = 0;
@@ -49,9 +50,12 @@ TEST(FloodQueue, PopsInTheOrderOfAPlainHeap) {
       expect_same_order(seed, entries, [](Random& random, float last) {  // with steps back
         return last + std::round(static_cast<float>(random.uniform(-3, 3.1)) * 4) / 4;
       });
-      expect_same_order(seed, entries, [](Random& random, float) {  // without any order
-        return static_cast<float>(random.uniform(-200, 400));
-      });
+      for (const float low : {0.0f, 100.0f, 128.0f}) {  // without any order
+        expect_same_order(
+            seed, entries,
+            [](Random& random, float) { return static_cast<float>(random.uniform(-200, 400)); },
+            low);
+      }
     }
   }
 }
