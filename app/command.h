@@ -18,6 +18,7 @@ void add_run_command(CLI::App& app, Action& chosen);
 void add_report_command(CLI::App& app, Action& chosen);
 void add_fracture_command(CLI::App& app, Action& chosen);
 void add_score_command(CLI::App& app, Action& chosen);
+void add_partition_command(CLI::App& app, Action& chosen);
 void add_list_command(CLI::App& app, Action& chosen);
 void add_doctor_command(CLI::App& app, Action& chosen);
 

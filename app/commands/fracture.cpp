@@ -8,6 +8,7 @@
 #include "app/arguments.h"
 #include "app/command.h"
 #include "app/fragment_folder.h"
+#include "app/fragments_of_pieces.h"
 #include "app/result_json.h"
 #include "app/shape_frame.h"
 #include "core/error.h"
@@ -53,23 +54,6 @@ Scenario scenario_of_balls(const std::vector<std::string>& balls) {
     scenario.balls.push_back({.position = {v[0], v[1], v[2]}, .velocity = {v[3], v[4], v[5]}});
   }
   return scenario;
-}
-
-Fragments fragments_of(std::vector<Piece> pieces) {
-  Fragments fragments;
-  const auto count = static_cast<std::int32_t>(pieces.size());
-  for (std::int32_t k = 0; k < count; ++k) {
-    Fragment fragment{.mesh = std::move(pieces[k].mesh), .faces = {}, .piece = k};
-    for (const PieceFace& face : pieces[k].faces) {
-      // One crack for each pair of pieces, the same number from both sides.
-      const auto [low, high] = std::minmax(k, face.neighbour);
-      fragment.faces.push_back(
-          face.is_fracture() ? FragmentFace{.original_face = -1, .interface = low * count + high}
-                             : FragmentFace{.original_face = face.parent_face, .interface = -1});
-    }
-    fragments.push_back(std::move(fragment));
-  }
-  return fragments;
 }
 
 struct Broken {

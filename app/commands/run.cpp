@@ -69,7 +69,7 @@ ExitCode run(RunArguments arguments, std::stop_token stop) {
                  .progress = [&](const RunProgress& progress) { shown.update(progress); },
                  .message = [&](std::string_view text) { shown.message(text); }});
   if (arguments.as_json) {
-    print_json(to_json(result));
+    print_json(counts_as_json(result));
   } else {
     print_result(result, arguments);
   }
