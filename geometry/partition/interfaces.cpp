@@ -13,6 +13,8 @@ namespace {
 constexpr double cell_margin = 0.02;
 // Points on lattice edges stay this far from their ends.
 constexpr double edge_margin = 0.1;
+// Least barycentric coordinate of vertices in tetrahedra and their sides.
+constexpr double simplex_margin = 0.04;
 // Tiny displacement of every vertex, in cells.
 constexpr double displacement = 1e-5;
 // Determinants of points in a cell below this count as 0, in cells^3.
@@ -68,10 +70,13 @@ class Extraction {
   }
 
  private:
-  static constexpr std::int32_t uniform = -1, ambiguous = -2;
+  static constexpr std::int32_t uniform = -1;
 
+  /// A cell with several regions. An ambiguous one has no vertex of its own; those in its
+  /// tetrahedra are drawn to its place.
   struct Node {
     std::size_t cell = 0;
+    std::int32_t vertex = -1;                  ///< -1: the cell is ambiguous
     Vec3 place = Vec3::Zero();                 ///< in the cell, [0, 1]^3
     std::array<std::int32_t, 6> neighbours{};  ///< nodes of the cells across the sides, or -1
     bool movable = false;
@@ -109,19 +114,19 @@ class Extraction {
         },
         4);
     cell_node_.assign(grid_.values.size(), uniform);
+    std::int32_t simple_cells = 0;
     for (const auto& slab : mixed) {
       for (const std::size_t cell : slab) {
         const CellRegions regions(corners(cell));
         if (!options_.with_void && regions.solid_count() < 2) continue;
-        cells_.push_back(cell);
-        if (!regions.is_simple(tables_)) {
-          cell_node_[cell] = ambiguous;
-          ++result_.ambiguous_cells;
-          continue;
-        }
         cell_node_[cell] = static_cast<std::int32_t>(nodes_.size());
         Node node;
         node.cell = cell;
+        if (regions.is_simple(tables_)) {
+          node.vertex = simple_cells++;
+        } else {
+          ++result_.ambiguous_cells;
+        }
         nodes_.push_back(node);
       }
     }
@@ -233,24 +238,49 @@ class Extraction {
     return at->second;
   }
 
-  /// The vertex in the side between two tetrahedra.
-  std::int32_t side_vertex(std::size_t start, const RingStep& step) {
+  const Node& node_of(std::size_t cell) const { return nodes_[cell_node_[cell]]; }
+  Vec3 place_of(const Node& node) const { return sample_position(node.cell) + node.place; }
+
+  /// The vertex in the side between the tetrahedra of two steps.
+  std::int32_t side_vertex(std::size_t start, const RingStep& step, const Node& here,
+                           const Node& next) {
     const std::size_t base = start - step_[step.triangle_base];
     const auto& steps = tables_.triangle_steps[step.triangle_kind];
-    const Vec3 middle = sample_position(base) + (step_vector(steps[0]) + step_vector(steps[1])) / 3;
-    return shared_vertex(key(base, 16 + step.triangle_kind), middle);
+    const Vec3 origin = sample_position(base), u = step_vector(steps[0]), v = step_vector(steps[1]);
+    const Vec3 wish = (place_of(here) + place_of(next)) / 2 - origin;
+    // Barycentric coordinates of the wish's projection.
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = wish.dot(u), wv = wish.dot(v);
+    const double determinant = uu * vv - uv * uv;
+    Vec3 weights(0, (wu * vv - wv * uv) / determinant, (wv * uu - wu * uv) / determinant);
+    weights[0] = 1 - weights[1] - weights[2];
+    weights = weights.cwiseMax(simplex_margin).eval();
+    weights /= weights.sum();
+    return shared_vertex(key(base, 16 + step.triangle_kind),
+                         origin + weights[1] * u + weights[2] * v);
   }
 
-  std::int32_t tetrahedron_vertex(std::size_t cell, int tetrahedron) {
-    Vec3 middle = sample_position(cell);
-    for (const int c : tables_.tetrahedron[tetrahedron]) middle += step_vector(c) / 4;
-    return shared_vertex(key(cell, tetrahedron), middle);
+  std::int32_t tetrahedron_vertex(const Node& node, int tetrahedron) {
+    const auto& chain = tables_.tetrahedron[tetrahedron];
+    // Along a chain of corners, each adds a step along one axis.
+    Eigen::Vector4d weights(1, 0, 0, 0);
+    for (int n = 1; n < 4; ++n) {
+      const double x = step_vector(chain[n] ^ chain[n - 1]).dot(node.place);
+      weights[n - 1] -= x;
+      weights[n] = x;
+    }
+    weights = weights.cwiseMax(simplex_margin).eval();
+    weights /= weights.sum();
+    Vec3 place = sample_position(node.cell);
+    for (int n = 1; n < 4; ++n) place += weights[n] * step_vector(chain[n]);
+    return shared_vertex(key(node.cell, tetrahedron), place);
   }
 
   void emit() {
-    for (const Node& node : nodes_)
-      add_vertex(key(node.cell, 31), sample_position(node.cell) + node.place);
-    for (const std::size_t cell : cells_) {
+    for (const Node& node : nodes_) {
+      if (node.vertex >= 0) add_vertex(key(node.cell, 31), place_of(node));
+    }
+    for (const Node& node : nodes_) {
+      const std::size_t cell = node.cell;
       const std::int32_t below = grid_.values[cell];
       for (int d = 1; d < 8; ++d) {
         const std::int32_t above = grid_.values[cell + step_[d]];
@@ -270,14 +300,15 @@ class Extraction {
     bool simple = true;
     for (std::size_t n = 0; n < ring.size(); ++n) {
       const RingStep& next = ring[(n + 1) % ring.size()];
-      const std::size_t cell = start - step_[ring[n].cell], next_cell = start - step_[next.cell];
-      const bool here = cell_node_[cell] == ambiguous;
+      const Node& here = node_of(start - step_[ring[n].cell]);
+      const Node& beyond = node_of(start - step_[next.cell]);
+      const bool ambiguous = here.vertex < 0;
       const std::int32_t vertex =
-          here ? tetrahedron_vertex(cell, ring[n].tetrahedron) : cell_node_[cell];
+          ambiguous ? tetrahedron_vertex(here, ring[n].tetrahedron) : here.vertex;
       if (polygon_.empty() || polygon_.back() != vertex) polygon_.push_back(vertex);
-      simple &= !here;
-      if (here || cell_node_[next_cell] == ambiguous) {
-        polygon_.push_back(side_vertex(start, ring[n]));
+      simple &= !ambiguous;
+      if (ambiguous || beyond.vertex < 0) {
+        polygon_.push_back(side_vertex(start, ring[n], here, beyond));
       }
     }
     if (polygon_.size() > 1 && polygon_.front() == polygon_.back()) polygon_.pop_back();
@@ -340,9 +371,8 @@ class Extraction {
   const InterfaceOptions& options_;
   const KuhnTables& tables_;
   std::array<std::size_t, 8> step_{};
-  std::vector<std::size_t> cells_;       ///< with several regions, ascending
-  std::vector<std::int32_t> cell_node_;  ///< node, uniform or ambiguous
-  std::vector<Node> nodes_;              ///< vertex numbers are those of the nodes, then others
+  std::vector<std::int32_t> cell_node_;  ///< node, or uniform
+  std::vector<Node> nodes_;              ///< by ascending cell; the first vertices are theirs
   std::vector<Vec3> local_;              ///< positions of the vertices, in cells
   std::unordered_map<std::uint64_t, std::int32_t> shared_;
   std::vector<std::int32_t> polygon_;
