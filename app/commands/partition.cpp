@@ -10,6 +10,7 @@
 #include "app/fragments_of_pieces.h"
 #include "app/result_json.h"
 #include "app/shape_frame.h"
+#include "core/error.h"
 #include "core/peak_memory.h"
 #include "core/stage_timer.h"
 #include "geometry/partition_by_labels.h"
@@ -84,7 +85,12 @@ ExitCode partition(const PartitionArguments& arguments) {
   Partition parts;
   {
     const auto stage = timer.stage("partition");
-    parts = partition_by_labels(frame.own(), labels, arguments.options);
+    try {
+      parts = partition_by_labels(frame.own(), labels, arguments.options);
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("{} and {}: {}", arguments.mesh, arguments.labels.string(), error.what()));
+    }
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   const Fragments fragments = fragments_of(std::move(parts.pieces));
