@@ -192,20 +192,18 @@ class Fields {
   }
 
   void refuse_what_is_not_supported() const {
+    const auto refuse = [&](std::string_view name, std::string_view allowed,
+                            std::string_view way_out) {
+      const std::string* value = find(name);
+      if (value != nullptr && *value != allowed) fail(name, *value, way_out);
+    };
     for (const char* name : {"data file", "datafile"}) {
-      if (find(name) != nullptr) {
-        fail(name, *find(name),
-             "detached data are not supported: write header and data to one file");
-      }
+      refuse(name, {}, "detached data are not supported: write header and data to one file");
     }
     for (const char* name : {"line skip", "lineskip", "byte skip", "byteskip"}) {
-      if (find(name) != nullptr && *find(name) != "0") {
-        fail(name, *find(name), "skipping is not supported: write the data right after the header");
-      }
+      refuse(name, "0", "skipping is not supported: write the data right after the header");
     }
-    for (const char* name : {"space dimension"}) {
-      if (find(name) != nullptr && *find(name) != "3") fail(name, *find(name), "it must be 3");
-    }
+    refuse("space dimension", "3", "it must be 3");
   }
 
   NrrdHeader::Encoding encoding() const {
@@ -256,8 +254,8 @@ class Fields {
     header.spacing =
         checked_spacing({spacings[0], spacings[1], spacings[2]}, "field 'spacings'", file_);
     const std::vector<double> mins = numbers("axis mins", 3, false);
-    const std::string& centers =
-        find("centerings") != nullptr ? *find("centerings") : needed("centers");
+    const std::string* centerings = find("centerings");  // the older name
+    const std::string& centers = centerings != nullptr ? *centerings : needed("centers");
     const auto words = words_of(centers);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string center = axis < words.size() ? lower_case(words[axis]) : "";
