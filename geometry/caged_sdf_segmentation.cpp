@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/available_memory.h"
 #include "core/error.h"
 #include "geometry/segmentation/extended_minima.h"
 #include "geometry/segmentation/flood_grid.h"
@@ -19,6 +20,10 @@ namespace {
 constexpr double published_cage = 0.03;         // epsilon of section 5.2, m
 constexpr std::int64_t minimum_up_to_128 = 50;  // from the authors' published script
 constexpr std::int64_t minimum_above_128 = 500;
+
+// The relief and its labels take 8 bytes, the result 4, the queue 2 where it is longest.
+constexpr std::uint64_t bytes_per_voxel = 14;
+constexpr std::uint64_t worth_asking = std::uint64_t{1} << 24;  // asking takes a while, too
 
 void check(const VoxelGrid<float>& field, const SegmentationOptions& options) {
   const auto [nx, ny, nz] = field.size;
@@ -34,6 +39,13 @@ void check(const VoxelGrid<float>& field, const SegmentationOptions& options) {
         nx, ny, nz));
   }
   const std::size_t count = static_cast<std::size_t>(nx) * ny * nz;
+  if (count > worth_asking && count * bytes_per_voxel > available_memory()) {
+    throw InputError(fmt::format(
+        "the field has {} x {} x {} voxels; segmentation takes {:.1f} GB of memory beside it, of "
+        "which {:.1f} are available: use a coarser grid, or a machine with more memory",
+        nx, ny, nz, static_cast<double>(count * bytes_per_voxel) / 1e9,
+        static_cast<double>(available_memory()) / 1e9));
+  }
   if (field.values.size() != count) {
     throw InputError(fmt::format("the field's size is {} x {} x {} = {} voxels, but it holds {}",
                                  nx, ny, nz, count, field.values.size()));

@@ -49,8 +49,8 @@ struct Segmentation {
 /// result does not depend on the number of threads.
 ///
 /// Throws InputError where the field has no voxels, values that do not match its size, a spacing
-/// that is not positive, a voxel that is NaN or infinite or no voxel inside the mask, and where an
-/// option is out of range.
+/// that is not positive, a voxel that is NaN or infinite or no voxel inside the mask, where an
+/// option is out of range, and, before memory is taken, where that does not suffice.
 Segmentation caged_sdf_segmentation(const VoxelGrid<float>& field,
                                     const SegmentationOptions& options = {});
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "core/available_memory.h"
 #include "core/error.h"
 #include "heap_segmentation.h"
 #include "test_fields.h"
@@ -252,6 +253,11 @@ TEST(CagedSdfSegmentation, RefusesFieldsThatAreNone) {
   EXPECT_THAT(message_of(field), HasSubstr("spacing is nan"));
   field.size = {1 << 30, 1 << 30, 1 << 30};
   EXPECT_THAT(message_of(field), HasSubstr("coarser grid"));
+  field.size = {1280, 1280, 1280};
+  field.spacing = 1;
+  EXPECT_THAT(message_of(field),
+              HasSubstr(available_memory() < 29'000'000'000u ? "29.4 GB of memory beside it"
+                                                             : "but it holds"));
   field.size = {-1, 8, 8};
   EXPECT_THAT(message_of(field), HasSubstr("at least one voxel"));
   EXPECT_THAT(message_of(VoxelGrid<float>({4, 4, 4}, Vec3::Zero(), 0.1, -0.5f)),
