@@ -83,7 +83,7 @@ void EncodeRecord(benchmark::State& state) {
   const Record record = typical_record();
   std::size_t size = 0;
   for (auto _ : state) {
-    const std::string bytes = to_hdf5(to_tree(record));
+    const std::string bytes = to_hdf5(to_tree(record), is_packed_array);
     size = bytes.size();
   }
   state.counters["bytes"] = static_cast<double>(size);

@@ -81,12 +81,12 @@ Hdf5Handle untimed(hid_t property_class) {
   return list;
 }
 
-Hdf5Handle layout(const Array& array) {
+Hdf5Handle layout(const Array& array, bool packed) {
   Hdf5Handle list = untimed(H5P_DATASET_CREATE);
   const std::size_t size = array.bytes.size();
   if (size > 0 && size <= kCompactBytes) {
     check(H5Pset_layout(list, H5D_COMPACT), "choosing a layout");
-  } else if (size >= kCompressedBytes && !array.shape.empty()) {
+  } else if (packed && size >= kCompressedBytes && !array.shape.empty()) {
     std::vector<hsize_t> chunk(array.shape.begin(), array.shape.end());
     const std::size_t row = size / array.shape[0];
     chunk[0] = std::clamp<hsize_t>(kChunkBytes / row, 1, array.shape[0]);
@@ -108,10 +108,10 @@ void make_parents(hid_t file, std::string_view path, std::set<std::string>& made
   }
 }
 
-void write_array(hid_t file, const std::string& path, const Array& array) {
+void write_array(hid_t file, const std::string& path, const Array& array, bool packed) {
   const Hdf5Handle type = file_type(array.type, array.element_size);
   const Hdf5Handle space = data_space(array.shape);
-  const Hdf5Handle properties = layout(array);
+  const Hdf5Handle properties = layout(array, packed);
   const Hdf5Handle data(
       H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
       "making " + path);
@@ -251,7 +251,7 @@ class Reader {
 
 }  // namespace
 
-std::string to_hdf5(const DataTree& tree) {
+std::string to_hdf5(const DataTree& tree, const ArrayFilter& packed) {
   const auto lock = lock_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a property list");
   check(H5Pset_fapl_core(access, 1 << 20, false), "writing to memory");
@@ -263,7 +263,7 @@ std::string to_hdf5(const DataTree& tree) {
   std::set<std::string> groups;
   for (const auto& [path, array] : tree.arrays()) {
     make_parents(file, path, groups);
-    write_array(file, path, array);
+    write_array(file, path, array, !packed || packed(path));
   }
   check(H5Fflush(file, H5F_SCOPE_LOCAL), "flushing");
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);

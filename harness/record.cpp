@@ -180,6 +180,8 @@ bool is_summary_array(std::string_view path) {
   return !path.starts_with("result/fragments/") && !path.starts_with("result/trajectory/");
 }
 
+bool is_packed_array(std::string_view path) { return path != "result/trajectory/poses"; }
+
 CellSummary to_summary(const DataTree& tree) {
   require_version(tree);
   const DataTree result = subtree(tree, "result/");

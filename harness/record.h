@@ -77,6 +77,10 @@ std::string result_digest(const Record& record);
 /// Whether summary_of needs an array, by path: all but meshes and trajectory.
 bool is_summary_array(std::string_view path);
 
+/// Whether compressing an array of a record saves more than it costs: the poses of bodies that fly
+/// are like noise to a compressor (14 % saved, for half of the time of writing a record).
+bool is_packed_array(std::string_view path);
+
 /// From a tree that holds at least the arrays of is_summary_array. Digests are not verified.
 CellSummary to_summary(const DataTree& tree);
 

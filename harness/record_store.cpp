@@ -97,7 +97,7 @@ Record RecordStore::read(std::string_view key) const {
 
 void RecordStore::write(const Claim&, const Record& record) const {
   const fs::path file = record_file(record.key);
-  write_file_atomically(file, to_hdf5(to_tree(record)), part_of(file));
+  write_file_atomically(file, to_hdf5(to_tree(record), is_packed_array), part_of(file));
 }
 
 fs::path RecordStore::set_aside(const Claim&, std::string_view key, std::string_view why) const {
