@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "geometry/boolean.h"
 #include "geometry/measures.h"
 #include "tests/geometry/partition/label_volumes.h"
 #include "tests/geometry/test_meshes.h"
@@ -59,7 +60,7 @@ TEST(Partition, OfTinyRandomVolumesIsAlwaysValid) {
                                      {"sphere", test_meshes::sphere(12, 16, 0.95)},
                                      {"hollow", test_meshes::hollow_cube()},
                                      {"torus", test_meshes::torus(16, 8)}};
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < 28; ++round) {
     Random random(static_cast<std::uint64_t>(round));
     const Named& body = bodies[round % bodies.size()];
     const int r = 4 + static_cast<int>(random.below(5));
@@ -160,6 +161,12 @@ TEST(Partition, AlongTheExactPathGivesThePiecesOfTheFastOne) {
       for (std::size_t p = 0; p < fast.pieces.size(); ++p) {
         a.emplace_back(fast.report.piece_label[p], volume(fast.pieces[p].mesh));
         b.emplace_back(exact.report.piece_label[p], volume(exact.pieces[p].mesh));
+      }
+      const bool compare = !noisy && body.name == "sphere";  // slow: the surfaces coincide
+      for (std::size_t p = 0; compare && p < fast.pieces.size(); ++p) {
+        const TriangleMesh both =
+            boolean(fast.pieces[p].mesh, exact.pieces[p].mesh, BooleanOperation::intersection).mesh;
+        EXPECT_NEAR(volume(both), a[p].second, 1e-9 * volume(body.mesh)) << body.name;
       }
       std::sort(a.begin(), a.end());
       std::sort(b.begin(), b.end());
