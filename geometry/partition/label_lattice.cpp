@@ -41,9 +41,9 @@ void check_grid(const VoxelGrid<std::int32_t>& labels) {
 }
 
 /// The mesh may reach beyond the outermost voxels, which end half a spacing beyond their samples,
-/// by one voxel.
+/// by one voxel, and by what rounding adds to it.
 void check_placement(const BoundingBox& box, const VoxelGrid<std::int32_t>& labels) {
-  const double margin = 1.5 * labels.spacing;
+  const double margin = (1.5 + 1e-6) * labels.spacing;
   const Vec3 low = labels.origin - Vec3::Constant(margin);
   const Vec3 high = labels.position(labels.size[0] - 1, labels.size[1] - 1, labels.size[2] - 1) +
                     Vec3::Constant(margin);

@@ -237,6 +237,40 @@ TEST(Partition, GivesVoxelsWithoutLabelTheNearestOne) {
   EXPECT_EQ(faults(body, partition), "");
 }
 
+TEST(Partition, WorksOnGridsThatAreNoCubeAndEndShortlyBeforeTheMesh) {
+  const TriangleMesh body = test_meshes::box(Vec3(0.1, 0.2, -3), Vec3(2.1, 1.3, -2.4));
+  // Samples from (0.15, 0.25, -2.95) to (2.05, 1.25, -2.45): the mesh ends half a voxel beyond, and
+  // in the second grid one and a half.
+  for (const int missing : {0, 1}) {
+    Labels grid({20 - missing, 11 - missing, 6 - missing}, Vec3(0.15, 0.25, -2.95), 0.1);
+    const Labels labels = filled(grid, [](int i, int j, int) { return 1 + i / 7 + 3 * (j / 6); });
+    const Partition partition = partition_by_labels(body, labels);
+    EXPECT_EQ(partition.pieces.size(), 6u);
+    EXPECT_EQ(faults(body, partition), "");
+  }
+}
+
+TEST(Partition, SurvivesInterfacesThatCoincideWithSidesOfTheBody) {
+  // A step whose inner corner lies where the labels change: the interfaces run along its walls.
+  const TriangleMesh outer = test_meshes::box(Vec3(-0.75, -0.75, -0.75), Vec3(0.75, 0.75, 0.75));
+  const TriangleMesh notch = test_meshes::box(Vec3(0, 0, -1), Vec3(1, 1, 1));
+  const TriangleMesh body = boolean(outer, notch, BooleanOperation::difference).mesh;
+  for (const int r : {8, 16}) {
+    const Labels grid = unit_grid<std::int32_t>(r);
+    for (const double minimum : {0.0, 0.5}) {
+      const Labels labels = filled(grid, [&](int i, int j, int k) {
+        const Vec3 p = grid.position(i, j, k);
+        return 1 + (p.x() > 0) + 2 * (p.y() > 0) + 4 * (p.z() > 0);
+      });
+      const Partition partition = partition_by_labels(body, labels, {.minimum_voxels = minimum});
+      EXPECT_EQ(faults(body, partition), "") << "r = " << r << ", minimum " << minimum;
+      if (minimum > 0) {
+        EXPECT_EQ(partition.pieces.size(), 6u);
+      }
+    }
+  }
+}
+
 TEST(Partition, RefusesWhatItCannotCut) {
   const TriangleMesh body = test_meshes::cube(1.8);
   const auto refuses = [](const TriangleMesh& mesh, const Labels& labels, const char* word) {
