@@ -27,11 +27,12 @@ TreeTriangle triangle_of(const TriangleMesh& mesh, std::size_t face) {
           .face = static_cast<std::int32_t>(face)};
 }
 
-std::array<Vec3, 4> samples(const TriangleMesh& mesh, std::size_t face) {
+// Corners, centroid and middles of the edges.
+std::array<Vec3, 7> samples(const TriangleMesh& mesh, std::size_t face) {
   const Vec3& a = mesh.corner(face, 0);
   const Vec3& b = mesh.corner(face, 1);
   const Vec3& c = mesh.corner(face, 2);
-  return {a, b, c, (a + b + c) / 3};
+  return {a, b, c, (a + b + c) / 3, (a + b) / 2, (b + c) / 2, (c + a) / 2};
 }
 
 double longest_edge(const TriangleMesh& mesh, std::size_t face) {
@@ -50,34 +51,59 @@ bool looks_the_same_way(const TriangleMesh& mesh, std::size_t face, const Vec3& 
 }
 
 struct Kept {
-  double area = 0;                 // m^2
-  std::vector<Vec3> off_the_face;  // samples that are not on the face that their tag names
-  double on_the_face = 0;          // largest distance of the others to that face, m
+  double area = 0;                  // m^2
+  double distance = 0;              // largest one of a sample to the body's surface, m
+  std::vector<std::size_t> astray;  // faces that are not on the face that their tag names
 };
 
-Kept kept_surface(const TriangleMesh& body, const Fragment& fragment, double tolerance) {
+// Faces that lie on the face that their tag names.
+Kept on_named_faces(const TriangleMesh& body, const Fragment& fragment, double tolerance) {
   Kept kept;
   Sum area;
   for (std::size_t f = 0; f < fragment.faces.size(); ++f) {
     const std::int32_t source = fragment.faces[f].original_face;
     if (source < 0) continue;
-    const std::array<Vec3, 4> points = samples(fragment.mesh, f);
     if (source >= static_cast<std::int32_t>(body.faces.size())) {
-      kept.off_the_face.insert(kept.off_the_face.end(), points.begin(), points.end());
+      kept.astray.push_back(f);
       continue;
     }
     const TreeTriangle triangle = triangle_of(body, source);
     double largest = 0;
-    for (const Vec3& p : points) {
+    for (const Vec3& p : samples(fragment.mesh, f)) {
       largest = std::max(largest, std::sqrt(squared_distance(triangle, p)));
     }
     if (largest > tolerance) {
-      kept.off_the_face.insert(kept.off_the_face.end(), points.begin(), points.end());
-    } else {
-      kept.on_the_face = std::max(kept.on_the_face, largest);
-      if (looks_the_same_way(fragment.mesh, f, area_vector2(body, source), tolerance)) {
-        area += area_vector2(fragment.mesh, f).norm() / 2;
-      }
+      kept.astray.push_back(f);
+      continue;
+    }
+    kept.distance = std::max(kept.distance, largest);
+    if (looks_the_same_way(fragment.mesh, f, area_vector2(body, source), tolerance)) {
+      area += area_vector2(fragment.mesh, f).norm() / 2;
+    }
+  }
+  kept.area = area.value();
+  return kept;
+}
+
+// Of the others, those that lie on the body's surface all the same: a tool may have divided flat
+// parts of the surface anew, so that its faces span several of the body's.
+Kept on_surface(const TriangleMesh& body, const SurfaceDistance& surface, const Fragment& fragment,
+                const std::vector<std::size_t>& faces, double tolerance) {
+  Kept kept;
+  Sum area;
+  for (const std::size_t f : faces) {
+    double largest = 0;
+    std::int32_t below_centroid = -1;
+    const auto points = samples(fragment.mesh, f);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const SurfaceDistance::Nearest nearest = surface.nearest(points[k]);
+      largest = std::max(largest, nearest.distance);
+      if (k == 3) below_centroid = nearest.face;
+    }
+    kept.distance = std::max(kept.distance, largest);
+    if (largest > tolerance) continue;
+    if (looks_the_same_way(fragment.mesh, f, area_vector2(body, below_centroid), tolerance)) {
+      area += area_vector2(fragment.mesh, f).norm() / 2;
     }
   }
   kept.area = area.value();
@@ -140,22 +166,30 @@ Measurement SurfaceRetention::measure(const CellResult& cell) const {
   const double tolerance = kRetentionTolerance * bounding_box(cell.body).longest_side();
   const auto fragments = measurable(cell.fragments);
   std::vector<Kept> kept(fragments.size());
-  parallel_for(fragments.size(), cell.threads,
-               [&](std::size_t i) { kept[i] = kept_surface(cell.body, fragments[i], tolerance); });
+  parallel_for(fragments.size(), cell.threads, [&](std::size_t i) {
+    kept[i] = on_named_faces(cell.body, fragments[i], tolerance);
+  });
   Sum area_kept;
   double distance = 0;
-  std::vector<Vec3> off_the_face;
-  for (const Kept& part : kept) {
+  const auto add = [&](const Kept& part) {
     area_kept += part.area;
-    distance = std::max(distance, part.on_the_face);
-    off_the_face.insert(off_the_face.end(), part.off_the_face.begin(), part.off_the_face.end());
+    distance = std::max(distance, part.distance);
+  };
+  std::ranges::for_each(kept, add);
+  if (std::ranges::any_of(kept, [](const Kept& part) { return !part.astray.empty(); })) {
+    const SurfaceDistance surface(cell.body);
+    std::vector<Kept> rest(fragments.size());
+    parallel_for(fragments.size(), cell.threads, [&](std::size_t i) {
+      rest[i] = on_surface(cell.body, surface, fragments[i], kept[i].astray, tolerance);
+    });
+    std::ranges::for_each(rest, add);
   }
   Measurement result;
   add_value(result, "surface_retention", area_kept.value() / area(cell.body));
   const TriangleMesh all = joined(fragments);
   if (all.empty()) return result;
-  distance = std::max({distance, largest_distance(off_the_face, cell.body, cell.threads),
-                       largest_distance(vertices_not_kept(cell.body, all), all, cell.threads)});
+  distance =
+      std::max(distance, largest_distance(vertices_not_kept(cell.body, all), all, cell.threads));
   add_value(result, "surface_distance", distance, "m");
   return result;
 }

@@ -36,13 +36,13 @@ TEST(SurfaceRetention, misses_what_is_not_there) {
 TEST(SurfaceRetention, does_not_believe_a_tag_that_is_not_true) {
   const TriangleMesh body = box();
   Fragments fragments = cut_all(body, Vec3::Constant(0.5), std::vector<Vec3>{{1, 0, 0}});
-  // Faces claim to be a face that they do not lie on (the other triangle of their side at best).
+  // The surface is there, though its faces name others that they do not lie on.
   for (Fragment& fragment : fragments) {
     for (FragmentFace& face : fragment.faces) {
       if (!face.is_fracture()) face.original_face = (face.original_face + 2) % 12;
     }
   }
-  EXPECT_NEAR(value(measured(body, fragments), "surface_retention"), 0, 1e-14);
+  EXPECT_NEAR(value(measured(body, fragments), "surface_retention"), 1, 1e-14);
   // Fracture surface that claims to be original.
   fragments = cut_all(body, Vec3::Constant(0.5), std::vector<Vec3>{{1, 0, 0}});
   for (Fragment& fragment : fragments) {
@@ -51,11 +51,34 @@ TEST(SurfaceRetention, does_not_believe_a_tag_that_is_not_true) {
   const Measurement m = measured(body, fragments);
   EXPECT_NEAR(value(m, "surface_retention"), 1, 1e-14);
   EXPECT_NEAR(value(m, "surface_distance"), 0.5, 1e-14);
-  // A number that is no face of the body.
+  // A number that is no face of the body: the place counts.
   for (Fragment& fragment : fragments) {
     for (FragmentFace& face : fragment.faces) face.original_face = 12;
   }
-  EXPECT_EQ(value(measured(body, fragments), "surface_retention"), 0);
+  EXPECT_NEAR(value(measured(body, fragments), "surface_retention"), 1, 1e-14);
+}
+
+TEST(SurfaceRetention, finds_the_surface_where_its_flat_parts_are_divided_anew) {
+  const TriangleMesh body = box();
+  // Both halves of each side of the box joined along the other diagonal.
+  Fragment turned = whole(body);
+  for (std::size_t f = 0; f + 1 < turned.mesh.faces.size(); f += 2) {
+    const Face a = turned.mesh.faces[f];
+    const Face b = turned.mesh.faces[f + 1];
+    const auto apex = [](const Face& of, const Face& other) {
+      for (int k = 0; k < 3; ++k) {
+        if (std::ranges::find(other, of[k]) == other.end()) return k;
+      }
+      return -1;
+    };
+    const int k = apex(a, b);
+    const int l = apex(b, a);
+    if (k < 0 || l < 0) continue;
+    turned.mesh.faces[f] = {a[k], a[(k + 1) % 3], b[l]};
+    turned.mesh.faces[f + 1] = {a[k], b[l], a[(k + 2) % 3]};
+  }
+  ASSERT_NE(turned.mesh.faces, body.faces);
+  EXPECT_NEAR(value(measured(body, {turned}), "surface_retention"), 1, 1e-14);
 }
 
 TEST(SurfaceRetention, a_surface_turned_inside_out_is_not_retained) {
