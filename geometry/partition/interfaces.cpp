@@ -4,18 +4,17 @@
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "geometry/partition/cell_points.h"
 #include "geometry/partition/kuhn_cell.h"
 
 namespace fracbench::partition {
 namespace {
 
-// Vertices stay this far from the sides of their cell, in cells: far more than the displacement.
-constexpr double cell_margin = 0.02;
 // Points on lattice edges stay this far from their ends.
 constexpr double edge_margin = 0.1;
 // Least barycentric coordinate of vertices in tetrahedra and their sides.
 constexpr double simplex_margin = 0.04;
-// Tiny displacement of every vertex, in cells.
+// Tiny displacement of every vertex, in cells: far less than any margin.
 constexpr double displacement = 1e-5;
 // Determinants of points in a cell below this count as 0, in cells^3.
 constexpr double flat = 1e-6;
@@ -76,10 +75,7 @@ class Extraction {
   /// tetrahedra are drawn to its place.
   struct Node {
     std::size_t cell = 0;
-    std::int32_t vertex = -1;                  ///< -1: the cell is ambiguous
-    Vec3 place = Vec3::Zero();                 ///< in the cell, [0, 1]^3
-    std::array<std::int32_t, 6> neighbours{};  ///< nodes of the cells across the sides, or -1
-    bool movable = false;
+    std::int32_t vertex = -1;  ///< -1: the cell is ambiguous
   };
 
   std::array<std::int32_t, 8> corners(std::size_t cell) const {
@@ -134,7 +130,8 @@ class Extraction {
 
   /// Where the interfaces cross the cell's edges, on average, and which neighbours pull at it:
   /// along a junction of three regions only those on the same junction.
-  void prepare_node(Node& node) const {
+  CellPoint make_point(const Node& node) const {
+    CellPoint point;
     const auto corner = corners(node.cell);
     const int solids = CellRegions(corner).solid_count();
     int crossings = 0;
@@ -143,13 +140,12 @@ class Extraction {
         const int other = c | 1 << axis;
         if (other == c || corner[c] == corner[other]) continue;
         if (solids > 1 && (corner[c] == 0 || corner[other] == 0)) continue;
-        node.place += (step_vector(c) + step_vector(other)) / 2;
+        point.place += (step_vector(c) + step_vector(other)) / 2;
         ++crossings;
       }
     }
-    node.place = crossings > 0 ? Vec3(node.place / crossings) : Vec3::Constant(0.5);
+    point.place = crossings > 0 ? Vec3(point.place / crossings) : Vec3::Constant(0.5);
 
-    node.neighbours.fill(-1);
     int pulls = 0;
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2, u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
@@ -165,37 +161,19 @@ class Extraction {
       const std::size_t step = step_[1 << axis];
       const std::int32_t neighbour = cell_node_[side % 2 ? node.cell + step : node.cell - step];
       if (neighbour < 0) continue;
-      node.neighbours[side] = neighbour;
+      point.neighbours[side] = neighbour;
       ++pulls;
     }
-    node.movable = pulls >= 2;
+    point.movable = pulls >= 2;
+    return point;
   }
 
   void smooth() {
+    points_.resize(nodes_.size());
     parallel_for(
-        nodes_.size(), options_.threads, [&](std::size_t n) { prepare_node(nodes_[n]); }, 1024);
-    std::vector<Vec3> next(nodes_.size());
-    for (int round = 0; round < options_.smoothing_steps; ++round) {
-      parallel_for(
-          nodes_.size(), options_.threads,
-          [&](std::size_t n) {
-            const Node& node = nodes_[n];
-            next[n] = node.place;
-            if (!node.movable) return;
-            Vec3 mean = Vec3::Zero();
-            int count = 0;
-            for (int side = 0; side < 6; ++side) {
-              if (node.neighbours[side] < 0) continue;
-              mean += nodes_[node.neighbours[side]].place;
-              mean[side / 2] += side % 2 ? 1 : -1;
-              ++count;
-            }
-            mean /= count;
-            next[n] = mean.cwiseMax(cell_margin).cwiseMin(1 - cell_margin);
-          },
-          1024);
-      for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n].place = next[n];
-    }
+        nodes_.size(), options_.threads, [&](std::size_t n) { points_[n] = make_point(nodes_[n]); },
+        1024);
+    smooth_points(points_, options_.smoothing_steps, options_.threads);
   }
 
   Vec3 sample_position(std::size_t sample) const {
@@ -238,12 +216,14 @@ class Extraction {
     return at->second;
   }
 
-  const Node& node_of(std::size_t cell) const { return nodes_[cell_node_[cell]]; }
-  Vec3 place_of(const Node& node) const { return sample_position(node.cell) + node.place; }
+  /// Of a node, in cells from the grid's origin.
+  Vec3 place_of(std::int32_t node) const {
+    return sample_position(nodes_[node].cell) + points_[node].place;
+  }
 
   /// The vertex in the side between the tetrahedra of two steps.
-  std::int32_t side_vertex(std::size_t start, const RingStep& step, const Node& here,
-                           const Node& next) {
+  std::int32_t side_vertex(std::size_t start, const RingStep& step, std::int32_t here,
+                           std::int32_t next) {
     const std::size_t base = start - step_[step.triangle_base];
     const auto& steps = tables_.triangle_steps[step.triangle_kind];
     const Vec3 origin = sample_position(base), u = step_vector(steps[0]), v = step_vector(steps[1]);
@@ -259,25 +239,27 @@ class Extraction {
                          origin + weights[1] * u + weights[2] * v);
   }
 
-  std::int32_t tetrahedron_vertex(const Node& node, int tetrahedron) {
+  std::int32_t tetrahedron_vertex(std::int32_t node, int tetrahedron) {
+    const std::size_t cell = nodes_[node].cell;
     const auto& chain = tables_.tetrahedron[tetrahedron];
     // Along a chain of corners, each adds a step along one axis.
     Eigen::Vector4d weights(1, 0, 0, 0);
     for (int n = 1; n < 4; ++n) {
-      const double x = step_vector(chain[n] ^ chain[n - 1]).dot(node.place);
+      const double x = step_vector(chain[n] ^ chain[n - 1]).dot(points_[node].place);
       weights[n - 1] -= x;
       weights[n] = x;
     }
     weights = weights.cwiseMax(simplex_margin).eval();
     weights /= weights.sum();
-    Vec3 place = sample_position(node.cell);
+    Vec3 place = sample_position(cell);
     for (int n = 1; n < 4; ++n) place += weights[n] * step_vector(chain[n]);
-    return shared_vertex(key(node.cell, tetrahedron), place);
+    return shared_vertex(key(cell, tetrahedron), place);
   }
 
   void emit() {
-    for (const Node& node : nodes_) {
-      if (node.vertex >= 0) add_vertex(key(node.cell, 31), place_of(node));
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      if (nodes_[n].vertex < 0) continue;
+      add_vertex(key(nodes_[n].cell, 31), place_of(static_cast<std::int32_t>(n)));
     }
     for (const Node& node : nodes_) {
       const std::size_t cell = node.cell;
@@ -300,14 +282,14 @@ class Extraction {
     bool simple = true;
     for (std::size_t n = 0; n < ring.size(); ++n) {
       const RingStep& next = ring[(n + 1) % ring.size()];
-      const Node& here = node_of(start - step_[ring[n].cell]);
-      const Node& beyond = node_of(start - step_[next.cell]);
-      const bool ambiguous = here.vertex < 0;
+      const std::int32_t here = cell_node_[start - step_[ring[n].cell]];
+      const std::int32_t beyond = cell_node_[start - step_[next.cell]];
+      const bool ambiguous = nodes_[here].vertex < 0;
       const std::int32_t vertex =
-          ambiguous ? tetrahedron_vertex(here, ring[n].tetrahedron) : here.vertex;
+          ambiguous ? tetrahedron_vertex(here, ring[n].tetrahedron) : nodes_[here].vertex;
       if (polygon_.empty() || polygon_.back() != vertex) polygon_.push_back(vertex);
       simple &= !ambiguous;
-      if (ambiguous || beyond.vertex < 0) {
+      if (ambiguous || nodes_[beyond].vertex < 0) {
         polygon_.push_back(side_vertex(start, ring[n], here, beyond));
       }
     }
@@ -373,6 +355,7 @@ class Extraction {
   std::array<std::size_t, 8> step_{};
   std::vector<std::int32_t> cell_node_;  ///< node, or uniform
   std::vector<Node> nodes_;              ///< by ascending cell; the first vertices are theirs
+  std::vector<CellPoint> points_;        ///< parallel to nodes_
   std::vector<Vec3> local_;              ///< positions of the vertices, in cells
   std::unordered_map<std::uint64_t, std::int32_t> shared_;
   std::vector<std::int32_t> polygon_;

@@ -187,7 +187,17 @@ TEST(Partition, FollowsItsLabels) {
   ASSERT_EQ(partition.pieces.size(), 2u);
   EXPECT_EQ(partition.report.piece_label, (std::vector<std::int32_t>{1, 2}));
   const double ball = 4.0 / 3 * std::numbers::pi * std::pow(0.6, 3);
-  EXPECT_NEAR(volume(partition.pieces[1].mesh) / ball, 1, 0.08);  // smoothing flattens
+  EXPECT_NEAR(volume(partition.pieces[1].mesh) / ball, 1, 0.04);
+  // Nor does it have stair steps.
+  double area = 0, angle = 0;
+  const TriangleMesh& round = partition.pieces[1].mesh;
+  for (std::size_t f = 0; f < round.faces.size(); ++f) {
+    const Vec3 a = area_vector2(round, f);
+    const Vec3 radial = (round.corner(f, 0) + round.corner(f, 1) + round.corner(f, 2)).normalized();
+    area += a.norm();
+    angle += a.norm() * std::acos(std::min(1.0, a.normalized().dot(radial)));
+  }
+  EXPECT_LT(angle / area * 180 / std::numbers::pi, 4.5) << "degrees";
   EXPECT_EQ(faults(body, partition), "");
   for (const PieceFace& face : partition.pieces[1].faces) EXPECT_EQ(face.neighbour, 0);
 }
