@@ -32,7 +32,7 @@ struct Side {
   std::int32_t first_crossing;  ///< the crossings' place there
 };
 
-/// The face with the segments [begin, end) of `order` on it.
+/// The face with the given segments (indices) on it.
 FaceToSplit face_to_split(const Side& side, std::int32_t f, const Crossings& crossings,
                           const InterfaceMesh& interfaces, std::span<const std::int32_t> segments) {
   FaceToSplit face;

@@ -25,7 +25,7 @@ constexpr std::int32_t unknown = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t outside = unknown + 1;
 
 /// Gives `face` and all that is connected to it without crossing a constraint the value `side`.
-void flood(Triangulation& cdt, Triangulation::Face_handle face, std::int32_t side) {
+void flood(Triangulation::Face_handle face, std::int32_t side) {
   if (face->info() == side) return;
   if (face->info() != unknown) throw NotGeneric("the sides of a cut contradict each other");
   std::vector<Triangulation::Face_handle> stack{face};
@@ -42,7 +42,6 @@ void flood(Triangulation& cdt, Triangulation::Face_handle face, std::int32_t sid
       stack.push_back(other);
     }
   }
-  (void)cdt;
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ void split_face(const FaceToSplit& face, std::vector<SubFace>& result) {
     throw NotGeneric("cuts cross after rounding");
   }
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = unknown;
-  flood(cdt, cdt.infinite_face(), outside);
+  flood(cdt.infinite_face(), outside);
   // The face on the left of an edge from p to q: the edge is its k-th, counter-clockwise.
   const auto left_of = [&](Triangulation::Vertex_handle p, Triangulation::Vertex_handle q) {
     Triangulation::Face_handle f;
@@ -82,8 +81,8 @@ void split_face(const FaceToSplit& face, std::vector<SubFace>& result) {
   };
   for (std::int32_t n = 0; n < face.rim; ++n) left_of(handles[n], handles[(n + 1) % face.rim]);
   for (const auto& cut : face.cuts) {
-    flood(cdt, left_of(handles[cut.from], handles[cut.to]), cut.left);
-    flood(cdt, left_of(handles[cut.to], handles[cut.from]), cut.right);
+    flood(left_of(handles[cut.from], handles[cut.to]), cut.left);
+    flood(left_of(handles[cut.to], handles[cut.from]), cut.right);
   }
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
     if (f->info() == outside) continue;
