@@ -42,6 +42,26 @@ Entries kept(const Entries& entries, const std::vector<std::string>& wanted, std
   return result;
 }
 
+/// The options of a family with the files that they name found.
+Options with_files_found(const Suite& suite, const SuiteScenario& entry,
+                         const ScenarioFamily& family) {
+  OptionMap values = entry.options.values();
+  for (const char* name : {"file", "path"}) {
+    const auto found = values.find(name);
+    if (found == values.end()) continue;
+    if (auto* file = std::get_if<std::string>(&found->second)) {
+      *file = find_suite_input(suite, *file).string();
+    }
+  }
+  return Options(family.options(), values, suite.name);
+}
+
+/// What a shape is called once it is loaded, wherever its file lies.
+std::string target_name(const SuiteShape& shape) {
+  const std::string& name = shape.request.name;
+  return names_a_file(name) ? std::filesystem::path(name).stem().string() : name;
+}
+
 /// The scenes of a shape. They depend on the suite's seed, the shape and the family, so that all
 /// methods, repeats and variants of a family's options meet the same random draws.
 std::vector<PlannedScenario> make_scenarios(const Suite& suite, const SuiteShape& shape,
@@ -50,8 +70,9 @@ std::vector<PlannedScenario> make_scenarios(const Suite& suite, const SuiteShape
   for (const SuiteScenario& entry : suite.scenarios) {
     const ScenarioFamily& family = catalog.family(entry.family, suite.name);
     const std::uint64_t seed =
-        derive_seed(suite.seed, {"scenes", shape.request.name, entry.family});
-    for (Scenario& scenario : family.scenes(entry.options, shape.request.name, seed)) {
+        derive_seed(suite.seed, {"scenes", target_name(shape), entry.family});
+    const Options options = with_files_found(suite, entry, family);
+    for (Scenario& scenario : family.scenes(options, target_name(shape), seed)) {
       std::string name = entry.label + "-" + scenario.name;
       result.push_back({std::move(name), std::move(scenario)});
     }
@@ -59,14 +80,16 @@ std::vector<PlannedScenario> make_scenarios(const Suite& suite, const SuiteShape
   return result;
 }
 
-std::vector<PlannedShape> load_shapes(const std::vector<SuiteShape>& entries,
+std::vector<PlannedShape> load_shapes(const Suite& suite, const std::vector<SuiteShape>& entries,
                                       const Catalog& catalog) {
   std::vector<PlannedShape> shapes;
   std::vector<std::string> failures;
   for (const SuiteShape& entry : entries) {
     PlannedShape planned{.label = entry.label, .shape = {}, .digest = {}, .scenarios = {}};
     try {
-      planned.shape = catalog.load_shape(entry.request);
+      ShapeRequest request = entry.request;
+      if (names_a_file(request.name)) request.name = find_suite_input(suite, request.name).string();
+      planned.shape = catalog.load_shape(request);
     } catch (const InputError& error) {
       failures.emplace_back(error.what());
       continue;
@@ -182,7 +205,7 @@ Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& op
   }
   const std::vector<SuiteShape> shapes =
       kept(suite.shapes, options.shapes, "--shapes", [](const auto& s) { return s.request.name; });
-  plan.shapes = load_shapes(shapes, catalog);
+  plan.shapes = load_shapes(suite, shapes, catalog);
 
   std::size_t scenes = 0;
   std::size_t next = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -60,6 +61,21 @@ nlohmann::ordered_json to_json(const Suite& suite) {
     methods[method.label] = {{"name", method.name}, {"options", method.options.to_json()}};
   }
   return json;
+}
+
+std::filesystem::path find_suite_input(const Suite& suite, const std::string& name) {
+  constexpr std::string_view kShapes = "$FRACBENCH_SHAPES/";
+  if (name.starts_with(kShapes)) {
+    const char* folder = std::getenv("FRACBENCH_SHAPES");
+    return folder != nullptr ? std::filesystem::path(folder) / name.substr(kShapes.size())
+                             : std::filesystem::path(name);
+  }
+  const std::filesystem::path beside = suite.folder / name;
+  return !name.empty() && std::filesystem::exists(beside) ? beside : std::filesystem::path(name);
+}
+
+bool names_a_file(std::string_view shape) {
+  return shape.find_first_of("./") != std::string_view::npos;
 }
 
 const OptionsSchema& suite_schema() {

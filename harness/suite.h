@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -12,8 +13,8 @@
 namespace fracbench {
 
 struct SuiteShape {
-  std::string label;  ///< unique in the suite
-  ShapeRequest request;
+  std::string label;     ///< unique in the suite
+  ShapeRequest request;  ///< a file is named as the suite names it, see Suite::folder
 };
 
 struct SuiteScenario {
@@ -36,6 +37,9 @@ struct Suite {
   std::uint64_t seed = 1;
   int repeats = 1;           ///< with the same impacts and other random numbers for the method
   int threads_per_cell = 1;  ///< part of what determines a result, see docs/records.md
+  /// Where files that the suite names are looked for first. No part of the suite's identity, so
+  /// that it is the same suite wherever it lies and from wherever it is run.
+  std::filesystem::path folder;
   std::vector<SuiteShape> shapes;
   std::vector<SuiteScenario> scenarios;
   std::vector<SuiteMethod> methods;
@@ -43,6 +47,13 @@ struct Suite {
 
 /// Everything that determines the suite's results, defaults included; the summary does not.
 nlohmann::ordered_json to_json(const Suite& suite);
+
+/// Where a file is that a suite names: below the user's folder of shapes where the name begins with
+/// $FRACBENCH_SHAPES/, else beside the suite, else relative to the current folder.
+std::filesystem::path find_suite_input(const Suite& suite, const std::string& name);
+
+/// Whether a shape of this name is a file.
+bool names_a_file(std::string_view shape);
 
 /// The values of a suite that stand at its top, and those of a shape: names, units, defaults,
 /// ranges.

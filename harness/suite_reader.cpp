@@ -104,23 +104,10 @@ std::vector<Entry> read_entries(const Entry& top, std::string_view kind) {
   return entries;
 }
 
-/// Files are named relative to the suite, or to the user's folder of shapes.
-std::string resolved(const std::string& name, const std::filesystem::path& source) {
-  constexpr std::string_view kShapes = "$FRACBENCH_SHAPES/";
-  if (name.starts_with(kShapes)) {
-    const char* folder = std::getenv("FRACBENCH_SHAPES");
-    return folder ? (std::filesystem::path(folder) / name.substr(kShapes.size())).string() : name;
-  }
-  const std::filesystem::path beside = source.parent_path() / name;
-  return !name.empty() && std::filesystem::exists(beside) ? beside.string() : name;
-}
-
-SuiteShape make_shape(std::string name, const Options& options,
-                      const std::filesystem::path& source) {
+SuiteShape make_shape(const std::string& name, const Options& options) {
   SuiteShape shape;
-  const bool is_path = name.find_first_of("./") != std::string::npos;
-  shape.label = is_path ? std::filesystem::path(name).stem().string() : name;
-  shape.request.name = is_path ? resolved(name, source) : name;
+  shape.label = names_a_file(name) ? std::filesystem::path(name).stem().string() : name;
+  shape.request.name = name;
   shape.request.resolution = static_cast<int>(options.integer("resolution"));
   shape.request.longest_side = options.number("longest_side");
   return shape;
@@ -140,14 +127,14 @@ std::vector<SuiteShape> read_shapes(const Entry& top) {
       if (!name) {
         throw InputError(fmt::format("{}: 'shapes' must hold only names", top.where(item)));
       }
-      shapes.push_back(make_shape(name->get(), defaults, top.source));
+      shapes.push_back(make_shape(name->get(), defaults));
     }
   }
   for (Entry& entry : read_entries(top, "shape")) {
     const std::string name = require_text(entry, "name", "pot");
     entry.what = fmt::format("shape '{}'", name);
     const Options options = read_options(entry, shape_schema(), {"name", "label"});
-    shapes.push_back(make_shape(name, options, top.source));
+    shapes.push_back(make_shape(name, options));
     if (const auto label = read_text(entry, "label")) shapes.back().label = *label;
   }
   return shapes;
@@ -159,17 +146,9 @@ std::vector<SuiteScenario> read_scenarios(const Entry& top, const Catalog& catal
     const std::string family = require_text(entry, "family", "single");
     const ScenarioFamily& known = catalog.family(family, entry.where(*entry.table.get("family")));
     entry.what = fmt::format("scenario '{}'", family);
-    const OptionsSchema schema = known.options();
-    OptionMap values = read_options(entry, schema, {"family", "label"}).values();
-    for (const char* name : {"file", "path"}) {
-      const auto found = values.find(name);
-      if (found == values.end()) continue;
-      if (auto* file = std::get_if<std::string>(&found->second))
-        *file = resolved(*file, top.source);
-    }
     scenarios.push_back({.label = read_text(entry, "label").value_or(family),
                          .family = family,
-                         .options = Options(schema, values, entry.where())});
+                         .options = read_options(entry, known.options(), {"family", "label"})});
   }
   return scenarios;
 }
@@ -202,6 +181,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   const Options values =
       read_options(top, suite_schema(), {"shape", "shapes", "scenario", "method"});
   Suite suite;
+  suite.folder = source.parent_path();
   suite.name = values.text("name").empty() ? source.stem().string() : values.text("name");
   suite.summary = values.text("summary");
   suite.seed = static_cast<std::uint64_t>(values.integer("seed"));

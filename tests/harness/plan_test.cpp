@@ -3,11 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/error.h"
 #include "harness/suite_overrides.h"
+#include "harness/suite_reader.h"
+#include "temporary_folder.h"
 #include "toy_catalog.h"
 
 namespace fracbench {
@@ -46,6 +51,26 @@ TEST_F(PlanTest, HasACellForEveryShapeSceneMethodAndRepeat) {
 
 TEST_F(PlanTest, IsTheSameEachTime) {
   EXPECT_EQ(keys(make_plan(suite, catalog)), keys(make_plan(suite, catalog)));
+}
+
+TEST_F(PlanTest, IsTheSameWhereverTheSuiteAndItsMeshFilesLie) {
+  std::string text = toy_suite_text();
+  text.replace(text.find("\"box\""), 5, "\"rock.obj\"");
+  const TemporaryFolder here;
+  const TemporaryFolder there;
+  std::vector<Plan> plans;
+  for (const TemporaryFolder* folder : {&here, &there}) {
+    const std::filesystem::path mesh = folder->path() / "rock.obj";
+    std::ofstream(mesh) << "\n";
+    Catalog files = catalog;
+    files.load_shape = [&](ShapeRequest request) {
+      if (request.name == mesh) request.name = "box";
+      return catalog.load_shape(request);
+    };
+    plans.push_back(make_plan(parse_suite(text, folder->path() / "toy.toml", files), files));
+  }
+  EXPECT_EQ(keys(plans[0]), keys(plans[1]));
+  EXPECT_EQ(to_json(plans[0].suite), to_json(plans[1].suite));
 }
 
 TEST_F(PlanTest, PutsAllMethodsOnOneImpactNextToEachOther) {

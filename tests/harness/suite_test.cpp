@@ -97,7 +97,7 @@ TEST_F(SuiteTest, RefusesLabelsThatAreUsedTwiceOrWouldNotFitAFileName) {
   EXPECT_THAT(message("halves-wide", "halves/wide"), HasSubstr("may hold only"));
 }
 
-TEST_F(SuiteTest, ResolvesMeshFilesRelativeToItself) {
+TEST_F(SuiteTest, FindsFilesBesideItself) {
   const TemporaryFolder temporary;
   const std::filesystem::path& folder = temporary.path();
   std::ofstream(folder / "rock.obj") << "\n";
@@ -105,7 +105,14 @@ TEST_F(SuiteTest, ResolvesMeshFilesRelativeToItself) {
   text.replace(text.find("\"box\""), 5, "\"rock.obj\"");
   const Suite suite = parse_suite(text, folder / "toy.toml", catalog);
   EXPECT_EQ(suite.shapes[0].label, "rock");
-  EXPECT_EQ(suite.shapes[0].request.name, (folder / "rock.obj").string());
+  EXPECT_EQ(find_suite_input(suite, suite.shapes[0].request.name), folder / "rock.obj");
+  EXPECT_EQ(find_suite_input(suite, "elsewhere.obj"), "elsewhere.obj");
+}
+
+TEST_F(SuiteTest, FindsFilesInTheUsersFolderOfShapes) {
+  setenv("FRACBENCH_SHAPES", "/shapes", 1);
+  EXPECT_EQ(find_suite_input(Suite{}, "$FRACBENCH_SHAPES/runs/a.csv"), "/shapes/runs/a.csv");
+  unsetenv("FRACBENCH_SHAPES");
 }
 
 TEST_F(SuiteTest, OverridesReplaceSingleValues) {
