@@ -51,11 +51,9 @@ class Run {
   RunResult finish() {
     const std::stop_callback forward(options_.stop, [this] { stop_.request_stop(); });
     {
+      alive_ = options_.jobs;  // before the first of them can end
       std::vector<std::jthread> threads;
-      for (int j = 0; j < options_.jobs; ++j) {
-        ++alive_;
-        threads.emplace_back([this] { work(); });
-      }
+      for (int j = 0; j < options_.jobs; ++j) threads.emplace_back([this] { work(); });
       report_until_done();
     }
     if (error_) std::rethrow_exception(error_);
