@@ -70,6 +70,9 @@ CostEstimate estimate_cost(const Plan& plan, const std::filesystem::path& folder
 }
 
 std::string describe_seconds(double seconds) {
+  // Records are not trusted with times that a whole number has no room for.
+  constexpr double kLongest = 1e12;
+  if (!(seconds >= 0 && seconds <= kLongest)) return "an unknown time";
   const auto total = static_cast<long long>(std::ceil(seconds));
   if (total < 60) return fmt::format("{} s", total);
   if (total < 3600) return fmt::format("{} min {} s", total / 60, total % 60);

@@ -60,6 +60,7 @@ TEST(TerminalProgressTest, SpeaksOfTimesAsPeopleDo) {
   EXPECT_EQ(describe_seconds(3599), "59 min 59 s");
   EXPECT_EQ(describe_seconds(7500), "2 h 5 min");
   EXPECT_EQ(describe_seconds(274000), "3 days 4 h");
+  EXPECT_EQ(describe_seconds(1e300), "an unknown time");
 }
 
 TEST(CostModelTest, PrefersTheSameShapeAndFallsBackToTheSameMethod) {
