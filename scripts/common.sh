@@ -17,9 +17,12 @@ build_jobs() {
   echo $((jobs < 1 ? 1 : jobs))
 }
 
+# build PRESET [TARGET]: configures and builds everything, or one target.
 build() {
-  local preset=$1
-  cmake --preset "$preset" -S . >build-configure.log 2>&1 || { cat build-configure.log; rm -f build-configure.log; exit 1; }
-  rm -f build-configure.log
-  cmake --build --preset "$preset" --parallel "$(build_jobs)"
+  local preset=$1 target=${2:-all}
+  local log
+  log=$(mktemp)
+  cmake --preset "$preset" -S . >"$log" 2>&1 || { cat "$log"; rm -f "$log"; exit 1; }
+  rm -f "$log"
+  cmake --build --preset "$preset" --target "$target" --parallel "$(build_jobs)"
 }

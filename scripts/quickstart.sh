@@ -11,10 +11,11 @@ esac
 
 ./scripts/install.sh
 say "building (a first build takes some minutes)"
-build release
+build release fracbench
 say "running the quick suite"
-build/release/bin/fracbench run quick --out results/quick
+build/release/bin/fracbench run quick --out results/quick --jobs "$(nproc)"
 build/release/bin/fracbench report results/quick --out results/quick/report
 say "done"
 echo "report:      results/quick/report/report.md"
 echo "the program: build/release/bin/fracbench --help"
+echo "the tests:   ./scripts/test.sh"
