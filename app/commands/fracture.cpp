@@ -15,6 +15,7 @@
 #include "core/peak_memory.h"
 #include "geometry/write_mesh.h"
 #include "methods/registry.h"
+#include "scenarios/break_test.h"
 #include "scenarios/given_impact.h"
 #include "scenarios/scene.h"
 #include "scenarios/shapes.h"
@@ -39,17 +40,19 @@ struct FractureArguments {
   std::vector<std::string> settings;
   std::string format = "obj";
   std::string frame = "mesh";
+  std::string break_test = "authors";
   std::uint64_t seed = 1;
   int threads = 2;
   double longest_side = 1.9;
   bool as_json = false;
 };
 
-Scenario scenario_of_balls(const std::vector<std::string>& balls) {
+Scenario scenario_of_balls(const FractureArguments& arguments) {
   Scenario scenario;
   scenario.family = "given";
   scenario.name = "given";
-  for (const std::string& text : balls) {
+  scenario.break_test = break_test_from(arguments.break_test, "--break-test");
+  for (const std::string& text : arguments.balls) {
     const std::vector<double> v = parse_numbers(text, 6, "--ball", kBallForm);
     scenario.balls.push_back({.position = {v[0], v[1], v[2]}, .velocity = {v[3], v[4], v[5]}});
   }
@@ -65,14 +68,14 @@ struct Broken {
 Broken break_by_scene(const FractureArguments& arguments, const Target& target,
                       std::shared_ptr<const Breakable> breakable, Context& context) {
   SceneResult scene =
-      run_scene(scenario_of_balls(arguments.balls), target, std::move(breakable), context);
+      run_scene(scenario_of_balls(arguments), target, std::move(breakable), context);
   Broken broken{std::move(scene.impacts), std::move(scene.fragments), ""};
   if (broken.impacts.empty()) {
     broken.why_unbroken =
         scene.unbroken
             ? fmt::format(
                   "the break test did not fire: total impulse {:.4g} N s, balanced force "
-                  "{:.4g} N; a faster ball helps",
+                  "{:.4g} N; a faster ball or --break-test eq2-patch helps",
                   scene.unbroken->break_test.total_impulse,
                   scene.unbroken->break_test.balanced_force)
             : "no ball touched the body";
@@ -167,6 +170,12 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
       ->take_all();
   command->add_option("--impact", a->impact,
                       fmt::format("Give the impulse instead: {}", kImpactForm));
+  command
+      ->add_option(
+          "--break-test", a->break_test,
+          "When a body that a ball hits breaks (docs/scenarios.md); light bodies need eq2-patch")
+      ->check(CLI::IsMember(break_test_names()))
+      ->capture_default_str();
   command->add_option("--out", a->out, "Folder for fragments, fragments.glb and result.json")
       ->required();
   command->add_option("--set", a->settings, "Option of the method: name=value")

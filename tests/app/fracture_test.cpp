@@ -100,6 +100,14 @@ TEST(Fracture, TakesACollisionThatDoesNotBreakAsAResult) {
   }
 }
 
+TEST(Fracture, BreaksALightBodyByTheTestThatKnowsItsStrength) {
+  const TemporaryFolder folder;
+  const std::string base =
+      "fracture cvd chair --ball 3,0.1,0.2,-60,0,0 --out x --json --break-test ";
+  EXPECT_EQ(call(base + "authors", folder.path()).json()["status"], "unbroken");
+  EXPECT_EQ(call(base + "eq2-patch", folder.path()).json()["status"], "ok");
+}
+
 struct BadCall {
   const char* arguments;
   const char* message;
