@@ -3,6 +3,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+
+#include "harness/exit_code.h"
 
 namespace fracbench {
 
@@ -10,6 +13,10 @@ namespace {
 
 /// Wakes the listener when the program ends by itself.
 constexpr int kWakeUp = SIGUSR2;
+
+/// How long work may take to notice that it was asked to stop. Libraries cannot be interrupted, and
+/// what is half written is of no harm: it has no final name yet.
+constexpr timespec kPatience = {.tv_sec = 0, .tv_nsec = 800'000'000};
 
 sigset_t listened_signals() {
   sigset_t set;
@@ -27,10 +34,13 @@ Interrupt::Interrupt() {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   listener_ = std::thread([this] {
     const sigset_t waited = listened_signals();
-    for (int signal = 0; sigwait(&waited, &signal) == 0 && signal != kWakeUp;) {
-      if (!source_.request_stop()) std::_Exit(128 + signal);
-      std::fputs("\nfracbench: stopping; once more to stop at once\n", stderr);
-    }
+    int signal = 0;
+    if (sigwait(&waited, &signal) != 0 || signal == kWakeUp) return;
+    source_.request_stop();
+    std::fputs("\nfracbench: stopping; once more to stop at once\n", stderr);
+    signal = sigtimedwait(&waited, nullptr, &kPatience);
+    if (signal == kWakeUp) return;
+    std::_Exit(signal > 0 ? 128 + signal : static_cast<int>(ExitCode::not_measured));
   });
 }
 

@@ -5,8 +5,9 @@
 
 namespace fracbench {
 
-/// Turns SIGINT and SIGTERM into a request to stop; a second one ends the process at once. To be
-/// made once, before any other thread is started.
+/// Turns SIGINT and SIGTERM into a request to stop. Work that has not stopped within a second, and
+/// any work at a second signal, is ended with the process. To be made once, before any other thread
+/// is started.
 class Interrupt {
  public:
   Interrupt();
