@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "app/command.h"
@@ -25,6 +27,8 @@ constexpr const char* kFooter =
     "  fracbench report results                                          read the outcome\n"
     "\nExit codes: 0 good, 1 internal error, 2 usage or bad input, 3 regression found,\n"
     "4 nothing or not everything was measured, 5 baseline missing or not comparable.\n";
+
+constexpr const char* kNoOutput = "standard output cannot be written; is the disk full?";
 
 /// The library would only say that a subcommand is required.
 void require_known_subcommand(const CLI::App& app, std::string_view first) {
@@ -77,10 +81,16 @@ int main(int argc, char** argv) {
   using namespace fracbench;
   const Interrupt interrupt;
   try {
-    return static_cast<int>(run_program(argc, argv, interrupt.token()));
+    const ExitCode code = run_program(argc, argv, interrupt.token());
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw InputError(kNoOutput);
+    return static_cast<int>(code);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "fracbench: out of memory; a coarser mesh or fewer jobs need less\n");
     return static_cast<int>(ExitCode::not_measured);
+  } catch (const std::system_error& error) {
+    const bool no_output = std::ferror(stdout) != 0;
+    fmt::print(stderr, "fracbench: {}\n", no_output ? kNoOutput : error.what());
+    return static_cast<int>(no_output ? ExitCode::bad_input : exit_code_of(error));
   } catch (const std::exception& error) {
     fmt::print(stderr, "fracbench: {}\n", error.what());
     return static_cast<int>(exit_code_of(error));

@@ -21,14 +21,20 @@ std::string content_of(const fs::path& file) {
 
 Answer call(const std::string& arguments, const fs::path& folder) {
   const TemporaryFolder streams;
-  const fs::path output = streams.path() / "out";
+  Answer answer = call_with_output(arguments, folder, streams.path() / "out");
+  answer.output = content_of(streams.path() / "out");
+  return answer;
+}
+
+Answer call_with_output(const std::string& arguments, const fs::path& folder,
+                        const fs::path& output) {
+  const TemporaryFolder streams;
   const fs::path errors = streams.path() / "err";
   const std::string line = "cd '" + folder.string() + "' && exec '" FRACBENCH_PROGRAM "' " +
                            arguments + " >'" + output.string() + "' 2>'" + errors.string() +
                            "' </dev/null";
   const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content_of(output),
-          content_of(errors)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), "", content_of(errors)};
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -18,6 +18,10 @@ struct Answer {
 /// Runs the built `fracbench` with these arguments, as a shell would split them, in `folder`.
 Answer call(const std::string& arguments, const std::filesystem::path& folder);
 
+/// The same with the output sent to that file instead of into the answer.
+Answer call_with_output(const std::string& arguments, const std::filesystem::path& folder,
+                        const std::filesystem::path& output);
+
 /// An empty folder that is removed at the end of the test.
 class TemporaryFolder {
  public:
