@@ -18,8 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultFile = "result.json";
-
 /// A new folder beside `folder`, removed again unless it was moved to its place.
 class FolderInTheMaking {
  public:
@@ -76,14 +74,17 @@ void require_usable_folder(const fs::path& folder) {
 }
 
 void write_fragment_folder(const fs::path& folder, const Fragments& fragments,
-                           const std::string& format, const nlohmann::ordered_json& result) try {
+                           const std::string& format,
+                           const std::map<std::string, nlohmann::ordered_json>& documents) try {
   require_usable_folder(folder);
   const FolderInTheMaking making(without_trailing_slash(folder));
   for (std::size_t k = 0; k < fragments.size(); ++k) {
     write_mesh(making.path() / fmt::format("fragment_{:03}.{}", k, format), fragments[k].mesh);
   }
-  write_fragments(making.path() / "fragments.glb", fragments);
-  write_file_atomically(making.path() / kResultFile, result.dump(2) + "\n");
+  if (!fragments.empty()) write_fragments(making.path() / "fragments.glb", fragments);
+  for (const auto& [name, document] : documents) {
+    write_file_atomically(making.path() / name, document.dump(2) + "\n");
+  }
   making.move_to_its_place();
 } catch (const fs::filesystem_error& error) {
   throw InputError(

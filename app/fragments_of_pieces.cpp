@@ -1,26 +1,21 @@
 #include "app/fragments_of_pieces.h"
 
-#include <algorithm>
+#include "scenarios/replacement.h"
 
 namespace fracbench {
 
-Fragments fragments_of(std::vector<Piece> pieces) {
+Fragments fragments_of(const TriangleMesh& body, std::vector<Piece> pieces) {
+  std::vector<FragmentFace> body_faces(body.faces.size());
+  for (std::size_t f = 0; f < body_faces.size(); ++f) {
+    body_faces[f].original_face = static_cast<std::int32_t>(f);
+  }
+  std::int32_t next_interface = 0;
+  auto faces = compose_faces(body_faces, pieces, next_interface);
   Fragments fragments;
-  const auto count = static_cast<std::int32_t>(pieces.size());
-  for (std::int32_t k = 0; k < count; ++k) {
-    Fragment fragment{.mesh = std::move(pieces[k].mesh), .faces = {}, .piece = k};
-    for (const PieceFace& face : pieces[k].faces) {
-      if (!face.is_fracture()) {
-        fragment.faces.push_back({.original_face = face.parent_face, .interface = -1});
-      } else if (face.neighbour < 0) {
-        fragment.faces.push_back({.original_face = -1, .interface = -1});
-      } else {
-        // The same number from both sides.
-        const auto [low, high] = std::minmax(k, face.neighbour);
-        fragment.faces.push_back({.original_face = -1, .interface = low * count + high});
-      }
-    }
-    fragments.push_back(std::move(fragment));
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    fragments.push_back({.mesh = std::move(pieces[k].mesh),
+                         .faces = std::move(faces[k]),
+                         .piece = static_cast<std::int32_t>(k)});
   }
   return fragments;
 }

@@ -7,7 +7,8 @@
 
 namespace fracbench {
 
-/// The pieces of a single break as fragments; each pair of neighbours has one crack.
-Fragments fragments_of(std::vector<Piece> pieces);
+/// The pieces of a single break of a body as fragments; each pair of neighbours has one crack.
+/// Throws MethodFailure where tags and faces do not match.
+Fragments fragments_of(const TriangleMesh& body, std::vector<Piece> pieces);
 
 }  // namespace fracbench

@@ -104,6 +104,11 @@ Scenario read_scenario(const std::filesystem::path& file) {
   try {
     document = toml::parse_file(file.string());
   } catch (const toml::parse_error& error) {
+    if (error.source().begin.line == 0) {
+      throw InputError(
+          fmt::format("{}: the scene cannot be read: {}; check the name and the folder",
+                      file.string(), error.description()));
+    }
     throw InputError(
         fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
   }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +12,7 @@
 #include "app/fragment_folder.h"
 #include "app/fragments_of_pieces.h"
 #include "app/result_json.h"
+#include "app/scene_json.h"
 #include "app/shape_frame.h"
 #include "core/error.h"
 #include "core/peak_memory.h"
@@ -17,6 +20,7 @@
 #include "methods/registry.h"
 #include "scenarios/break_test.h"
 #include "scenarios/given_impact.h"
+#include "scenarios/scenario_toml.h"
 #include "scenarios/scene.h"
 #include "scenarios/shapes.h"
 
@@ -27,6 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kTrajectoryFile = "trajectory.json";
 constexpr const char* kBallForm = "x,y,z,vx,vy,vz (m and m/s, normalised frame)";
 constexpr const char* kImpactForm =
     "px,py,pz,dx,dy,dz,I (point, direction and N s, normalised frame)";
@@ -36,18 +41,20 @@ struct FractureArguments {
   std::string mesh;
   std::vector<std::string> balls;
   std::string impact;
+  std::string scenario;
   std::filesystem::path out;
   std::vector<std::string> settings;
   std::string format = "obj";
   std::string frame = "mesh";
   std::string break_test = "authors";
-  std::uint64_t seed = 1;
+  std::int64_t seed = 1;
   int threads = 2;
   double longest_side = 1.9;
   bool as_json = false;
 };
 
-Scenario scenario_of_balls(const FractureArguments& arguments) {
+Scenario scenario_of(const FractureArguments& arguments) {
+  if (!arguments.scenario.empty()) return read_scenario(arguments.scenario);
   Scenario scenario;
   scenario.family = "given";
   scenario.name = "given";
@@ -62,16 +69,18 @@ Scenario scenario_of_balls(const FractureArguments& arguments) {
 struct Broken {
   std::vector<Impact> impacts;
   Fragments fragments;
-  std::string why_unbroken;
+  Trajectory trajectory;
+  std::string reason;  ///< why it did not break
+  bool failed = false;
 };
 
-Broken break_by_scene(const FractureArguments& arguments, const Target& target,
+Broken break_by_scene(const Scenario& scenario, const Target& target,
                       std::shared_ptr<const Breakable> breakable, Context& context) {
-  SceneResult scene =
-      run_scene(scenario_of_balls(arguments), target, std::move(breakable), context);
-  Broken broken{std::move(scene.impacts), std::move(scene.fragments), ""};
+  SceneResult scene = run_scene(scenario, target, std::move(breakable), context);
+  Broken broken{std::move(scene.impacts), std::move(scene.fragments), std::move(scene.trajectory),
+                ""};
   if (broken.impacts.empty()) {
-    broken.why_unbroken =
+    broken.reason =
         scene.unbroken
             ? fmt::format(
                   "the break test did not fire: total impulse {:.4g} N s, balanced force "
@@ -87,7 +96,26 @@ Broken break_by_impact(const FractureArguments& arguments, const Target& target,
                        const Breakable& breakable, Context& context) {
   const std::vector<double> v = parse_numbers(arguments.impact, 7, "--impact", kImpactForm);
   const Impact impact = impact_at(target, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]);
-  return {{impact}, fragments_of(breakable.fracture(impact, context)), ""};
+  Broken broken{{impact}, fragments_of(target.mesh, breakable.fracture(impact, context)), {}, ""};
+  if (broken.fragments.size() < 2) broken.reason = "the method left the body whole";
+  return broken;
+}
+
+/// What a method cannot do is a result too.
+Broken break_body(const FractureArguments& arguments, const Method& method, const Options& options,
+                  const Target& target, Context& context) {
+  // Pauses while a stage of its own name runs, so that the times add up.
+  const auto rest = context.timer.stage("other");
+  try {
+    const std::shared_ptr<const Breakable> breakable = [&] {
+      const auto stage = context.timer.stage("prepare");
+      return method.prepare(target, {}, options, context);
+    }();
+    if (!arguments.impact.empty()) return break_by_impact(arguments, target, *breakable, context);
+    return break_by_scene(scenario_of(arguments), target, breakable, context);
+  } catch (const MethodFailure& failure) {
+    return {{}, {}, {}, failure.what(), true};
+  }
 }
 
 Fragments in_frame(const Fragments& fragments, const ShapeFrame& frame, const std::string& which) {
@@ -98,8 +126,10 @@ Fragments in_frame(const Fragments& fragments, const ShapeFrame& frame, const st
 }
 
 ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
-  if (arguments.balls.empty() == arguments.impact.empty()) {
-    throw InputError(fmt::format("give either --ball {} or --impact {}", kBallForm, kImpactForm));
+  if (!arguments.balls.empty() + !arguments.impact.empty() + !arguments.scenario.empty() != 1) {
+    throw InputError(
+        fmt::format("give one of --ball {}, --impact {} and --scenario FILE (a scene in TOML)",
+                    kBallForm, kImpactForm));
   }
   const Method& method = find_method(arguments.method);
   const Options options = parse_settings(method.options(), arguments.settings,
@@ -109,22 +139,17 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
   reset_peak_memory();
   StageTimer timer;
   Progress progress;
-  Random random(arguments.seed);
+  Random random(static_cast<std::uint64_t>(arguments.seed));
   Context context{random, timer, progress, stop, arguments.threads};
 
   Shape shape = load_shape({.name = arguments.mesh, .longest_side = 0});
   const ShapeFrame frame(std::move(shape.mesh), arguments.longest_side);
   for (const std::string& note : shape.notes) fmt::print(stderr, "{}: {}\n", arguments.mesh, note);
-  const Target target{shape.name, frame.normalized(), {}};
+  Target target{shape.name, frame.normalized(), {}};
+  if (!arguments.scenario.empty()) target.material = read_scenario(arguments.scenario).material;
 
   const auto begin = Clock::now();
-  const std::shared_ptr<const Breakable> breakable = [&] {
-    const auto stage = timer.stage("prepare");
-    return method.prepare(target, {}, options, context);
-  }();
-  const Broken broken = arguments.impact.empty()
-                            ? break_by_scene(arguments, target, breakable, context)
-                            : break_by_impact(arguments, target, *breakable, context);
+  const Broken broken = break_body(arguments, method, options, target, context);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 
   Json result = result_json({.body = target.mesh,
@@ -134,21 +159,26 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
                              .total_seconds = seconds,
                              .peak_memory = static_cast<double>(peak_memory()),
                              .threads = arguments.threads});
-  if (!broken.why_unbroken.empty()) result["reason"] = broken.why_unbroken;
+  if (!broken.reason.empty()) result["reason"] = broken.reason;
   result["method"] = arguments.method;
   result["options"] = options.to_json();
   result["mesh"] = arguments.mesh;
   result["seed"] = arguments.seed;
+  result["impacts"] = impacts_json(broken.impacts);
+  std::map<std::string, Json> documents{{kResultFile, result}};
+  if (!broken.trajectory.tracks.empty()) {
+    documents[kTrajectoryFile] = trajectory_json(broken.trajectory);
+  }
   write_fragment_folder(arguments.out, in_frame(broken.fragments, frame, arguments.frame),
-                        arguments.format, result);
+                        arguments.format, documents);
   if (arguments.as_json) {
     print_json(result);
   } else {
     fmt::print("{}", describe_result(result));
-    if (!broken.why_unbroken.empty()) fmt::print("not broken         {}\n", broken.why_unbroken);
+    if (!broken.reason.empty()) fmt::print("not broken         {}\n", broken.reason);
     fmt::print("written to         {}\n", arguments.out.string());
   }
-  return ExitCode::good;
+  return broken.failed ? ExitCode::not_measured : ExitCode::good;
 }
 
 }  // namespace
@@ -170,13 +200,19 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
       ->take_all();
   command->add_option("--impact", a->impact,
                       fmt::format("Give the impulse instead: {}", kImpactForm));
+  command->add_option("--scenario", a->scenario,
+                      "Run a scene written in TOML instead (docs/scenarios.md)");
   command
       ->add_option(
           "--break-test", a->break_test,
           "When a body that a ball hits breaks (docs/scenarios.md); light bodies need eq2-patch")
       ->check(CLI::IsMember(break_test_names()))
+      ->excludes("--impact")
+      ->excludes("--scenario")
       ->capture_default_str();
-  command->add_option("--out", a->out, "Folder for fragments, fragments.glb and result.json")
+  command
+      ->add_option("--out", a->out,
+                   "Folder for fragments, fragments.glb, result.json and trajectory.json")
       ->required();
   command->add_option("--set", a->settings, "Option of the method: name=value")
       ->allow_extra_args(false)
@@ -192,7 +228,9 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
   command->add_option("--longest-side", a->longest_side, "Size in the normalised frame, m")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  command->add_option("--seed", a->seed, "Of the method's random choices")->capture_default_str();
+  command->add_option("--seed", a->seed, "Of the method's random choices")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
   command->add_option("--threads", a->threads, "Threads that the method may use")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

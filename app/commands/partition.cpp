@@ -93,7 +93,7 @@ ExitCode partition(const PartitionArguments& arguments) {
     }
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  const Fragments fragments = fragments_of(std::move(parts.pieces));
+  const Fragments fragments = fragments_of(frame.own(), std::move(parts.pieces));
   Fragments normalized = fragments;
   for (Fragment& fragment : normalized) fragment.mesh = frame.to_normalized(fragment.mesh);
   Json result = result_json({.body = frame.normalized(),
@@ -106,7 +106,7 @@ ExitCode partition(const PartitionArguments& arguments) {
   result["mesh"] = arguments.mesh;
   result["labels"] = arguments.labels.string();
   result["partition"] = to_json(parts.report);
-  write_fragment_folder(arguments.out, fragments, arguments.format, result);
+  write_fragment_folder(arguments.out, fragments, arguments.format, {{kResultFile, result}});
   if (arguments.as_json) {
     print_json(result);
   } else {

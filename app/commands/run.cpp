@@ -56,7 +56,11 @@ ExitCode run(RunArguments arguments, std::stop_token stop) {
 
   const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
   if (arguments.dry_run) {
-    fmt::print("{}\n", cost.describe());
+    if (arguments.as_json) {
+      print_json(cost.as_json());
+    } else {
+      fmt::print("{}\n", cost.describe());
+    }
     return ExitCode::good;
   }
   fmt::print(stderr, "{}: {}\n", plan.suite.name, cost.describe());

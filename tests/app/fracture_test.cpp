@@ -87,6 +87,27 @@ TEST(Fracture, ReplacesItsOwnEarlierResultAndNothingElse) {
   EXPECT_EQ(folder.read("mine/thesis.txt"), "years of work");
 }
 
+TEST(Fracture, RunsASceneThatIsWrittenInAFile) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml",
+               "frames = 20\n[[ball]]\nposition = [3, 0, 0]\nvelocity = [-90, 0, 0]\n");
+  const Answer answer =
+      call("fracture cvd cube --scenario scene.toml --out broken --json", folder.path());
+  ASSERT_EQ(answer.exit_code, 0) << answer.errors;
+  const auto result = answer.json();
+  EXPECT_EQ(result["status"], "ok");
+  EXPECT_GT(result["impacts"][0]["impulses"][0]["magnitude"], 0);
+  EXPECT_NEAR(result["metrics"]["stage_times"]["stage_coverage"], 1, 0.02);
+  const auto trajectory = nlohmann::json::parse(folder.read("broken/trajectory.json"));
+  std::size_t pieces = 0;
+  for (const auto& track : trajectory["tracks"]) {
+    pieces += track["kind"] == "piece";
+    const std::size_t end = track["first_frame"].get<std::size_t>() + track["poses"].size();
+    EXPECT_EQ(end == 21, track["kind"] != "target");
+  }
+  EXPECT_EQ(pieces, result["fragment_count"]);
+}
+
 TEST(Fracture, TakesACollisionThatDoesNotBreakAsAResult) {
   const TemporaryFolder folder;
   folder.write("cube.obj", kCube);
@@ -147,6 +168,8 @@ INSTANTIATE_TEST_SUITE_P(
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set site=5",
                               "did you mean 'sites'"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites", "name=value"},
+                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --seed -1", "-1"},
+                      BadCall{"cvd cube.obj --scenario none.toml", "none.toml: the scene cannot"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --format doc", "doc"}));
 
 }  // namespace
