@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/data_file.h"
@@ -41,6 +42,14 @@ std::string CostEstimate::describe() const {
         fmt::format(", and an unknown time for {} cells of a kind that has not run yet", unknown);
   }
   return text;
+}
+
+nlohmann::ordered_json CostEstimate::as_json() const {
+  return {{"cells", cells},
+          {"found", there},
+          {"unknown", unknown},
+          {"seconds", seconds},
+          {"jobs", jobs}};
 }
 
 CostEstimate estimate_cost(const Plan& plan, const std::filesystem::path& folder, int jobs) {

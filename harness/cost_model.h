@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,8 @@ struct CostEstimate {
 
   /// "40 cells, 10 of them done; about 3 min for the rest with 2 jobs".
   std::string describe() const;
+  /// "cells", "found", "unknown", "seconds" and "jobs".
+  nlohmann::ordered_json as_json() const;
 };
 
 /// Looks at the records in a results folder, which need not exist.

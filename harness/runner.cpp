@@ -146,12 +146,16 @@ class Run {
     // It may have been made, or found to be damaged, by whoever held the claim before.
     if (take_found(cell, &*claim)) return true;
     const auto start = Clock::now();
-    CellProgress progress(*this, index);
-    const Record record = execute_(cell, progress, stop_.get_token());
+    const Record record = execute(cell, index);
     store_.write(*claim, record);
     const std::chrono::duration<double> seconds = Clock::now() - start;
     note(cell, record.outcome.status, seconds.count(), false);
     return true;
+  }
+
+  Record execute(const Cell& cell, std::size_t index) {
+    CellProgress progress(*this, index);
+    return execute_(cell, progress, stop_.get_token());
   }
 
   /// Whether a good record of the cell is there. With the claim, a bad one is set aside.

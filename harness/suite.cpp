@@ -125,6 +125,11 @@ const OptionsSchema& shape_schema() {
 }
 
 void check_labels(const Suite& suite, std::string_view where) {
+  // The results folder is called after it.
+  if (suite.name.find('/') != std::string::npos || suite.name == "." || suite.name == "..") {
+    throw InputError(fmt::format("{}: the name '{}' is a path; name the suite without slashes",
+                                 where, suite.name));
+  }
   check_entries(suite.shapes, "shape", where);
   check_entries(suite.scenarios, "scenario", where);
   check_entries(suite.methods, "method", where);

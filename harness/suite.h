@@ -61,7 +61,7 @@ const OptionsSchema& suite_schema();
 const OptionsSchema& shape_schema();
 
 /// Throws InputError for a suite without shapes, scenarios or methods, and for labels that are
-/// used twice or hold anything but letters, digits and ". _ + -".
+/// used twice or hold anything but letters, digits and ". _ + -", and for a name that is a path.
 void check_labels(const Suite& suite, std::string_view where);
 
 }  // namespace fracbench

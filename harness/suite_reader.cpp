@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "core/error.h"
@@ -196,11 +195,11 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
 
 Suite read_suite(const std::filesystem::path& file, const Catalog& catalog) {
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.good()) {
     throw InputError(fmt::format("{}: the suite cannot be read", file.string()));
   }
-  return parse_suite(text.str(), file, catalog);
+  return parse_suite(text, file, catalog);
 }
 
 }  // namespace fracbench

@@ -54,6 +54,39 @@ TEST_F(Run, AnswersADryRunWithoutMeasuring) {
   EXPECT_FALSE(fs::exists(folder_.path() / "results"));
 }
 
+TEST_F(Run, AnswersADryRunAsJsonToo) {
+  const Answer before = call("run small.toml --out results --dry-run --json", folder_.path());
+  EXPECT_EQ(before.json()["cells"], 2);
+  EXPECT_EQ(before.json()["unknown"], 2);
+  ASSERT_EQ(run().exit_code, 0);
+  EXPECT_EQ(run("--dry-run").json()["found"], 2);
+}
+
+TEST_F(Run, KnowsItsResultsAgainFromAnotherFolder) {
+  ASSERT_EQ(call("fracture cvd cube --ball 3,0,0,-60,0,0 --set sites=1 --out rock", folder_.path())
+                .exit_code,
+            0);
+  fs::copy_file(folder_.path() / "rock/fragment_000.obj", folder_.path() / "rock.obj");
+  std::string suite = kSuite;
+  suite.replace(suite.find("\"cube\""), 6, "\"rock.obj\"");
+  suite.replace(suite.find("resolution = 4\n"), 15, "");
+  folder_.write("rock.toml", suite);
+  ASSERT_EQ(call("run rock.toml --out results", folder_.path()).exit_code, 0);
+  fs::create_directory(folder_.path() / "below");
+  const Answer again = call("run ../rock.toml --out ../results --json", folder_.path() / "below");
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(again.json()["found"], 2);
+}
+
+TEST_F(Run, RefusesASuiteThatIsEmptyOrCalledAfterAPath) {
+  folder_.write("empty.toml", "");
+  EXPECT_THAT(call("run empty.toml", folder_.path()).errors, HasSubstr("has no shape"));
+  folder_.write("path.toml", std::string("name = \"../elsewhere\"\n") + kSuite);
+  const Answer path = call("run path.toml", folder_.path());
+  EXPECT_EQ(path.exit_code, 2);
+  EXPECT_THAT(path.errors, HasSubstr("without slashes"));
+}
+
 TEST_F(Run, RefusesAFolderThatBelongsToAnotherSuiteAndLeavesItAlone) {
   ASSERT_EQ(run().exit_code, 0);
   const Answer other = run("--set seed=9");
@@ -101,6 +134,15 @@ TEST(List, GivesOneJsonArrayOfNamedThingsForEachKind) {
   const auto method = call("list methods --json", folder.path()).json()[0];
   for (const char* name : {"citation", "shape_type", "retains_surface", "refracture", "options"}) {
     EXPECT_TRUE(method.contains(name)) << name;
+  }
+}
+
+TEST(Usage, OutputThatCannotBeWrittenIsNoSuccess) {
+  const TemporaryFolder folder;
+  for (const char* what : {"list metrics", "list metrics --json"}) {
+    const Answer answer = call_with_output(what, folder.path(), "/dev/full");
+    EXPECT_EQ(answer.exit_code, 2) << what;
+    EXPECT_THAT(answer.errors, HasSubstr("standard output")) << what;
   }
 }
 
