@@ -51,7 +51,7 @@ void check_range(double value, const OptionSpec& spec, std::string_view where) {
 }
 
 OptionValue checked(OptionValue value, const OptionSpec& spec, std::string_view where) {
-  // Whole numbers are numbers too, and a number may stand for a list of one.
+  // Whole numbers are numbers too.
   if (std::holds_alternative<double>(spec.fallback) &&
       std::holds_alternative<std::int64_t>(value)) {
     value = static_cast<double>(std::get<std::int64_t>(value));
