@@ -43,6 +43,18 @@ void print_result(const RunResult& result, const RunArguments& arguments) {
   if (result.stopped) fmt::print("stopped; the same command goes on from here\n");
 }
 
+/// With the progress on the terminal, whose line has ended when this returns.
+RunResult run_shown(const Plan& plan, const Catalog& catalog, const RunArguments& arguments,
+                    const std::stop_token& stop) {
+  TerminalProgress shown(std::cerr, is_terminal(STDERR_FILENO), terminal_columns(STDERR_FILENO));
+  return run_suite(plan, catalog,
+                   {.folder = arguments.out,
+                    .jobs = arguments.jobs,
+                    .stop = stop,
+                    .progress = [&](const RunProgress& progress) { shown.update(progress); },
+                    .message = [&](std::string_view text) { shown.message(text); }});
+}
+
 ExitCode run(RunArguments arguments, std::stop_token stop) {
   const Catalog catalog = built_in_catalog();
   const std::filesystem::path file = find_suite_file(arguments.suite);
@@ -64,14 +76,7 @@ ExitCode run(RunArguments arguments, std::stop_token stop) {
     return ExitCode::good;
   }
   fmt::print(stderr, "{}: {}\n", plan.suite.name, cost.describe());
-  TerminalProgress shown(std::cerr, is_terminal(STDERR_FILENO), terminal_columns(STDERR_FILENO));
-  const RunResult result =
-      run_suite(plan, catalog,
-                {.folder = arguments.out,
-                 .jobs = arguments.jobs,
-                 .stop = stop,
-                 .progress = [&](const RunProgress& progress) { shown.update(progress); },
-                 .message = [&](std::string_view text) { shown.message(text); }});
+  const RunResult result = run_shown(plan, catalog, arguments, stop);
   if (arguments.as_json) {
     print_json(counts_as_json(result));
   } else {

@@ -169,6 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
                               "did you mean 'sites'"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites", "name=value"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --seed -1", "-1"},
+                      BadCall{"cvd cube.obj --scenario s.toml --break-test authors", "excludes"},
                       BadCall{"cvd cube.obj --scenario none.toml", "none.toml: the scene cannot"},
                       BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --format doc", "doc"}));
 
