@@ -15,6 +15,10 @@ namespace {
 constexpr double kPlastic1 = 0.7548776662466927;
 constexpr double kPlastic2 = 0.5698402909980532;
 
+// Most columns along one side of the box. A body that fills little of its box (a thin wall) would
+// ask for more lines than memory can hold; with fewer, its points lie closer along each line.
+constexpr double kMostColumns = 2048;
+
 double fraction(double x) { return x - std::floor(x); }
 
 // Where the lines of a grid cross the surface.
@@ -70,7 +74,7 @@ class Lines {
     Columns() = default;
     Columns(const BoundingBox& box, int axis_, double spacing) : axis(axis_), low(box.low[axis_]) {
       const double size = box.high[axis] - box.low[axis];
-      count = std::max(1, static_cast<int>(std::round(size / spacing)));
+      count = static_cast<int>(std::clamp(std::round(size / spacing), 1.0, kMostColumns));
       width = size / count;
     }
     double middle(int n) const { return low + (n + 0.5) * width; }

@@ -35,6 +35,16 @@ TEST(InteriorSamples, AreFoundInAShellMuchThinnerThanTheirSpacing) {
   EXPECT_GE(interior_samples(surface_topology(plate), 1000, 100).size(), 100u);
 }
 
+TEST(InteriorSamples, OfAnObliqueShellAsThinAsRoundingAllowsTakeNoMoreMemoryThanOthers) {
+  TriangleMesh plate = test::cube(3);
+  for (Vec3& v : plate.vertices) {
+    v[0] *= 1e-12;
+    v = Vec3(v[0] + v[1] + v[2], v[1] - v[0], v[2] - v[0]) / 2;
+  }
+  const auto points = interior_samples(surface_topology(plate), 20000, 20);
+  EXPECT_NEAR(static_cast<double>(points.size()), 20000, 2000);
+}
+
 TEST(Lloyd, NeverRaisesTheEnergy) {
   for (const auto& [name, mesh] : test::generated_bodies()) {
     SCOPED_TRACE(name);
