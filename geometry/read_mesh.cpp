@@ -98,6 +98,8 @@ TriangleMesh read_mesh(const std::filesystem::path& file) {
 }
 
 TriangleMesh mesh_from_bytes(std::string_view bytes, const std::filesystem::path& name) {
+  // Some editors begin a text with a mark of its encoding, which is no part of the first word.
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   if (bytes.empty()) fail(name, "the file is empty", "export the mesh again");
   const formats::Source source{bytes, name.string()};
   TriangleMesh mesh = choose_reader(name, source)(source);

@@ -326,6 +326,12 @@ TEST_F(ReadMesh, ChecksCountsBeforeItAsksForMemory) {
               HasSubstr("it holds no faces"));
 }
 
+TEST_F(ReadMesh, ReadsTextBehindAByteOrderMark) {
+  const TriangleMesh mesh = read("a.obj", "\xef\xbb\xbf" + tetrahedron_obj);
+  EXPECT_EQ(mesh.vertices, read("b.obj", tetrahedron_obj).vertices);
+  EXPECT_THAT(error("c.obj", "\xef\xbb\xbf"), HasSubstr("empty"));
+}
+
 TEST_F(ReadMesh, SaysThatStlIsCutShort) {
   const std::string binary = binary_stl(cube(), "x");
   EXPECT_THAT(error("a.stl", binary.substr(0, 300)), HasSubstr("cut short"));
