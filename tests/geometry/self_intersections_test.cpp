@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/random.h"
 #include "geometry/check_mesh.h"
@@ -182,6 +184,26 @@ TEST(SelfIntersections, DoNotDependOnTheNumberOfThreadsAndTheLimitCutsTheEnd) {
     const std::vector<FacePair> expected(all.begin(), all.begin() + limit);
     EXPECT_EQ(self_intersections(mesh, 2, limit), expected);
   }
+}
+
+TEST(SelfIntersections, AreFoundAmongManyFacesAroundOneVertex) {
+  // Oblique, so that no coordinate is the same by itself.
+  constexpr int sides = 1500;
+  TriangleMesh fan;
+  fan.vertices.push_back(Vec3(1, 2, 3));
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    const double x = std::cos(angle), y = std::sin(angle);
+    fan.vertices.push_back(Vec3(1 + x + y / 2, 2 + y - x / 3, 3 + x / 4 + y));
+    fan.faces.push_back({0, 1 + i, 1 + (i + 1) % sides});
+  }
+  EXPECT_EQ(self_intersections(fan, 2), std::vector<FacePair>{});
+  // A face that goes through the flat cone of another one, with their corner in common.
+  const Vec3 ahead = (fan.vertices[1] + fan.vertices[2]) / 2 - fan.vertices[0];
+  fan.vertices.push_back(fan.vertices[0] + ahead / 2 + Vec3(0, 0, 1));
+  fan.vertices.push_back(fan.vertices[0] + ahead / 2 - Vec3(0, 0, 1));
+  fan.faces.push_back({0, sides + 1, sides + 2});
+  EXPECT_EQ(self_intersections(fan, 2), (std::vector<FacePair>{{0, sides}}));
 }
 
 TEST(SelfIntersections, EndEarlyWhereEverythingIntersects) {
