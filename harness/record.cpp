@@ -174,6 +174,12 @@ Record to_record(const DataTree& tree) {
   return record;
 }
 
+void require_intact(const DataTree& tree) {
+  require_version(tree);
+  require_digest(tree, "result_digest", subtree(tree, "result/"));
+  require_digest(tree, "machine_digest", subtree(tree, "machine/"));
+}
+
 std::string result_digest(const Record& record) { return result_tree(record).digest(); }
 
 bool is_summary_array(std::string_view path) {

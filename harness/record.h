@@ -71,6 +71,10 @@ DataTree to_tree(const Record& record);
 /// do not match, or its numbers contradict each other.
 Record to_record(const DataTree& tree);
 
+/// Throws DataError where the tree, which must be whole, is no record of this version or its
+/// digests do not match.
+void require_intact(const DataTree& tree);
+
 /// SHA-256 over everything in "result/": equal for two runs of one cell.
 std::string result_digest(const Record& record);
 
@@ -81,7 +85,8 @@ bool is_summary_array(std::string_view path);
 /// are like noise to a compressor (14 % saved, for half of the time of writing a record).
 bool is_packed_array(std::string_view path);
 
-/// From a tree that holds at least the arrays of is_summary_array. Digests are not verified.
+/// From a tree that holds at least the arrays of is_summary_array. Digests are not verified: see
+/// require_intact.
 CellSummary to_summary(const DataTree& tree);
 
 }  // namespace fracbench

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -37,9 +38,9 @@ void require_results_folder(const fs::path& folder) {
   if (fs::exists(folder / "suite.json") || !fs::exists(folder)) return;
   for (const auto& item : fs::directory_iterator(folder)) {
     const std::string name = item.path().filename().string();
-    if (name == "records" || name == "claims" || name == "shapes" || name == "suite.json.part") {
-      continue;
-    }
+    // What the program itself puts there, `report` included.
+    constexpr std::array kOwn = {"records", "claims", "shapes", "report", "suite.json.part"};
+    if (std::ranges::find(kOwn, name) != kOwn.end()) continue;
     throw InputError(
         fmt::format("{}: holds '{}', which does not belong to a results folder; choose an empty or "
                     "new folder",

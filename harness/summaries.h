@@ -9,7 +9,7 @@
 
 namespace fracbench {
 
-/// All that reports need of a results folder; meshes and trajectories are not read.
+/// All that reports need of a results folder: all but meshes and trajectories.
 struct Results {
   StoredSuite suite;
   std::vector<CellSummary> cells;       ///< by shape, scenario, repeat and label
