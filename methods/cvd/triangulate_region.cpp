@@ -5,6 +5,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <map>
 
 #include "methods/cvd/predicates.h"
 #include "methods/cvd/project.h"
@@ -63,6 +64,31 @@ Triangulation::Face_handle left_of(const Triangulation& triangulation,
   return face->vertex(Triangulation::ccw(side)) == from ? face : face->neighbor(side);
 }
 
+// The vertex that each boundary edge starts from, where outlines touch: bodies that meet along an
+// edge have two vertices at one place.
+using Starts = std::map<std::array<Triangulation::Vertex_handle, 2>, std::int32_t>;
+
+// The vertex at corner k of a face of the region: that of the boundary edge which the faces around
+// the corner begin at.
+std::int32_t corner_of(const Triangulation& triangulation, const Starts& start_of,
+                       Triangulation::Face_handle face, int k) {
+  const auto vertex = face->vertex(k);
+  const auto first = face;
+  for (;;) {
+    const int i = face->index(vertex);
+    const int side = Triangulation::cw(i);
+    if (face->is_constrained(side)) {
+      const auto found = start_of.find({vertex, face->vertex(Triangulation::ccw(i))});
+      if (found == start_of.end()) throw Degenerate("a crack's outline is inside out");
+      return found->second;
+    }
+    face = face->neighbor(side);
+    if (face == first || triangulation.is_infinite(face)) {
+      throw Degenerate("a crack's outline is not closed");
+    }
+  }
+}
+
 }  // namespace
 
 PlanarRegion triangulate_region(std::span<const Vec3> vertices,
@@ -74,19 +100,29 @@ PlanarRegion triangulate_region(std::span<const Vec3> vertices,
   Triangulation::Face_handle near;
   for (const BoundaryEdge& edge : chain) {
     const Vec3& p = vertices[edge[0]];
+    const std::size_t before = triangulation.number_of_vertices();
     const auto handle = triangulation.insert(Kernel::Point_2(p[axes.u], p[axes.v]), near);
+    if (triangulation.number_of_vertices() == before && vertices[handle->info()] != p) {
+      throw Degenerate("two corners of a crack's outline coincide");
+    }
     handle->info() = edge[0];
     near = handle->face();
     handles.push_back(handle);
   }
-  if (triangulation.number_of_vertices() != chain.size()) {
-    throw Degenerate("two corners of a crack's outline coincide");
-  }
+  const bool has_touching = triangulation.number_of_vertices() != chain.size();
   std::vector<std::array<Triangulation::Vertex_handle, 2>> edges(chain.size());
   for (std::size_t e = 0, first = 0; e < chain.size(); ++e) {
     const bool last = chain[e][1] == chain[first][0];
     edges[e] = {handles[e], handles[last ? first : e + 1]};
     if (last) first = e + 1;
+  }
+  Starts start_of;
+  if (has_touching) {
+    for (std::size_t e = 0; e < chain.size(); ++e) {
+      if (!start_of.emplace(edges[e], chain[e][0]).second) {
+        throw Degenerate("two parts of a crack's outline coincide");
+      }
+    }
   }
   try {
     for (const auto& [from, to] : edges) triangulation.insert_constraint(from, to);
@@ -106,8 +142,11 @@ PlanarRegion triangulate_region(std::span<const Vec3> vertices,
       const auto face = queue.back();
       queue.pop_back();
       if (triangulation.is_infinite(face)) throw Degenerate("a crack's outline is inside out");
-      region.triangles.push_back(
-          {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+      Face& corners = region.triangles.emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        corners[k] =
+            has_touching ? corner_of(triangulation, start_of, face, k) : face->vertex(k)->info();
+      }
       region.part.push_back(region.parts);
       for (int side = 0; side < 3; ++side) {
         const auto next = face->neighbor(side);

@@ -181,6 +181,32 @@ TEST(Cvd, SplitsACellIntoItsConnectedParts) {
   expect_partition(fork, pieces);
 }
 
+TEST(Cvd, BreaksBodiesThatTouchAlongAnEdge) {
+  // Two cubes with vertices of their own at the same places, those of the second in either order.
+  for (const bool reversed : {false, true}) {
+    TriangleMesh body = cube(1);
+    const TriangleMesh one = body;
+    const auto count = static_cast<std::int32_t>(one.vertices.size());
+    for (std::int32_t v = 0; v < count; ++v) {
+      body.vertices.push_back(one.vertices[reversed ? count - 1 - v : v] + Vec3(2, 2, 0));
+    }
+    for (Face face : one.faces) {
+      for (std::int32_t& v : face) v = count + (reversed ? count - 1 - v : v);
+      body.faces.push_back(face);
+    }
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      const Mat3 turn =
+          seed == 1 ? Mat3::Identity()
+                    : Eigen::AngleAxisd(0.7 * static_cast<double>(seed), Vec3(1, 2, 3).normalized())
+                          .toRotationMatrix();
+      const TriangleMesh turned = rotated(body, turn);
+      const auto pieces = break_body(turned, {sites(12, 0), seed});
+      EXPECT_GT(pieces.size(), 12u);
+      expect_partition(turned, pieces);
+    }
+  }
+}
+
 TEST(Cvd, KeepsACavityWithThePieceAroundIt) {
   const TriangleMesh hollow =
       boxes(9, 9, 9, [](int i, int j, int k) { return !(i == 2 && j == 2 && k == 2); });
