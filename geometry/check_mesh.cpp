@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "core/error.h"
@@ -161,19 +162,23 @@ void check_shells(const TriangleMesh& mesh, MeshReport& report) {
   }
   report.volume = volume(mesh);
   if (!report.closed) return;
-  Finder inverted("inverted shell"), flat("shell without volume");
+  Finder inverted("inverted shell"), flat("shell without volume"),
+      vast("shell of a volume beyond all numbers");
   for (const ShellNesting::Shell& shell : shell_nesting(mesh, component).shells) {
     const bool cavity = shell.depth % 2 == 1;
-    if (cavity ? shell.volume < 0 : shell.volume > 0) continue;
-    (shell.volume == 0 ? flat : inverted).add([&] {
+    const bool measured = std::isfinite(shell.volume);
+    if (measured && (cavity ? shell.volume < 0 : shell.volume > 0)) continue;
+    Finder& kind = shell.volume == 0 ? flat : measured ? inverted : vast;
+    kind.add([&] {
       return fmt::format("{} of {} faces with face {} at {}, volume {:.6g}",
                          cavity ? "cavity" : "shell", shell.faces.size(), shell.faces[0],
                          at(middle(mesh, shell.faces[0])), shell.volume);
     });
   }
-  if (inverted.any() || flat.any()) report.oriented = false;
+  if (inverted.any() || flat.any() || vast.any()) report.oriented = false;
   inverted.file(report);
   flat.file(report);
+  vast.file(report);
 }
 
 void check_intersections(const TriangleMesh& mesh, int threads, MeshReport& report) {

@@ -174,6 +174,17 @@ TEST(CheckMesh, FindsAShellWithoutVolume) {
   EXPECT_FALSE(report.is_solid());
 }
 
+TEST(CheckMesh, FindsAShellWhoseVolumeNoNumberHolds) {
+  for (const double size : {1e104, 1e200}) {
+    TriangleMesh mesh = cube();
+    for (Vec3& v : mesh.vertices) v *= size;
+    const MeshReport report = check_mesh(mesh);
+    EXPECT_FALSE(report.is_solid());
+    EXPECT_EQ(count(report, "shell of a volume beyond all numbers"), 1u);
+    EXPECT_EQ(count(report, "inverted shell"), 0u);
+  }
+}
+
 TEST(CheckMesh, NamesAtMostTenPlacesButCountsAll) {
   TriangleMesh soup;
   for (int i = 0; i < 30; ++i) {
