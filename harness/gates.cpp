@@ -162,11 +162,11 @@ std::vector<Gate> default_gates() {
                 .raise_to_noise = true,
                 .built_in = true};
   };
-  const auto ratio = [](std::string metric) {
+  const auto ratio = [](std::string metric, double limit) {
     return Gate{.metric = std::move(metric),
                 .test = GateTest::paired_ratio,
                 .direction = Tail::upper,
-                .limit = 1.5,
+                .limit = limit,
                 .relative = true,
                 .raise_to_noise = true,
                 .optional = true,
@@ -181,8 +181,8 @@ std::vector<Gate> default_gates() {
           mean("normal_along", 0.05, false),
           mean("roughness", 2, false),
           mean("volume_ratio", 1e-3, false),
-          ratio("total_seconds"),
-          ratio("stage_*")};
+          ratio("total_seconds", 1.5),
+          ratio("stage_*", 2)};
 }
 
 std::vector<Gate> parse_gates(std::string_view text, const std::filesystem::path& source) {

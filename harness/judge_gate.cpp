@@ -120,7 +120,10 @@ bool Measuring::enough(std::size_t collisions, bool identical) {
   result_.collisions = collisions;
   const GateOutcome too_few = gate().optional ? GateOutcome::reported : GateOutcome::not_measured;
   if (collisions == 0) {
-    end(too_few, fmt::format("no collision that both runs broke has '{}'", gate().metric));
+    end(too_few,
+        gate().of_machine()
+            ? fmt::format("'{}' is never above {} s in both runs", gate().metric, kShortestTime)
+            : fmt::format("no collision that both runs broke has '{}'", gate().metric));
     return false;
   }
   if (identical || smallest_p(collisions, tail()) <= single_significance_) return true;

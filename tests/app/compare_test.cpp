@@ -67,6 +67,22 @@ TEST_F(CompareCommand, EachWayToFailHasItsExitCode) {
   EXPECT_THAT(mistake.errors, HasSubstr("did you mean 'factor'"));
 }
 
+TEST_F(CompareCommand, AMethodThatNowBreaksOtherwiseIsARegression) {
+  const std::string many = "--set scenario.single.count=13";
+  run("base", many);
+  run("now", many + " --set method.cvd.sites=25");
+  // As if the same suite had been measured by a method that was edited.
+  fs::copy_file(folder_.path() / "base/suite.json", folder_.path() / "now/suite.json",
+                fs::copy_options::overwrite_existing);
+  const Answer answer = compare("base now --json");
+  EXPECT_EQ(answer.exit_code, 3) << answer.output << answer.errors;
+  EXPECT_EQ(answer.json()["verdict"], "regression");
+  const auto gate = answer.json()["gates"][0];
+  EXPECT_EQ(gate["metric"], "fragment_count");
+  EXPECT_EQ(gate["outcome"], "regression");
+  EXPECT_GT(gate["change"], 2);
+}
+
 TEST_F(CompareCommand, AcceptingMakesTheNewBaselineWithANote) {
   EXPECT_EQ(compare("base old --accept").exit_code, 2);
   EXPECT_EQ(compare("base old --why forgotten").exit_code, 2);

@@ -71,7 +71,7 @@ TEST(Compare, LargeShiftsAreRegressionsOfTheGateTheyConcern) {
   EXPECT_THAT(failing({.count_shift = 2, .seed = 2}), Contains("fragment_count"));
   EXPECT_THAT(failing({.count_shift = 0.4, .seed = 2}), Contains("fragment_count"));
   EXPECT_THAT(failing({.volume_shift = 1.5, .seed = 2}), Contains("fragment_volume"));
-  EXPECT_THAT(failing({.time_shift = 2, .rerun = 2}),
+  EXPECT_THAT(failing({.time_shift = 3, .rerun = 2}),
               ::testing::UnorderedElementsAre("total_seconds", "stage_cut"));
 }
 
