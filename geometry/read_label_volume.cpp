@@ -22,6 +22,10 @@ VoxelGrid<std::int32_t> read_label_volume(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) {
     throw InputError(fmt::format("{}: is a folder; give the file of the labels", file.string()));
   }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError(
+        fmt::format("{}: is a device or pipe; write the labels to a file first", file.string()));
+  }
   std::ifstream input(file, std::ios::binary);
   std::array<char, 8> start{};
   input.read(start.data(), start.size());

@@ -195,6 +195,10 @@ TEST(Nrrd, DamagedBytesGiveAnErrorOrAVolumeButNoCrash) {
   }
 }
 
+TEST(LabelVolumes, AreNotLookedForInDevicesThatNeverEnd) {
+  EXPECT_THROW(read_label_volume("/dev/zero"), InputError);
+}
+
 TEST(LabelVolumes, OfOtherKindsAreRefused) {
   EXPECT_THAT(message_of(""), HasSubstr("is empty"));
   EXPECT_THAT(message_of("solid thing"), HasSubstr("neither an NRRD nor an HDF5"));
