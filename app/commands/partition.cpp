@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -67,6 +68,10 @@ std::string describe(const PartitionReport& report) {
 }
 
 ExitCode partition(const PartitionArguments& arguments) {
+  if (!std::isfinite(arguments.options.minimum_voxels)) {
+    throw InputError(fmt::format("--minimum-voxels {}: must be a number from 0 on",
+                                 arguments.options.minimum_voxels));
+  }
   require_usable_folder(arguments.out);
   reset_peak_memory();
   StageTimer timer;

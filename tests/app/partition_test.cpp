@@ -56,5 +56,15 @@ TEST(PartitionCommand, RefusesAVolumeInAnotherPlaceAndNamesBothFiles) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
+TEST(PartitionCommand, RefusesAMinimumThatIsNoNumber) {
+  const TemporaryFolder folder;
+  folder.write("cube.obj", kCube);
+  folder.write("labels.nrrd", volume_at(0));
+  const Answer answer =
+      call("partition cube.obj labels.nrrd --out out --minimum-voxels nan", folder.path());
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.errors, HasSubstr("--minimum-voxels"));
+}
+
 }  // namespace
 }  // namespace fracbench
