@@ -7,8 +7,10 @@
 #include <gmp.h>
 #include <hdf5.h>
 #include <mpfr.h>
+#include <openssl/crypto.h>
 #include <sys/utsname.h>
 #include <tbb/version.h>
+#include <toml++/toml.h>
 
 #include <Eigen/Core>
 #include <boost/version.hpp>
@@ -56,10 +58,15 @@ std::map<std::string, std::string> collect_provenance() {
           {"library_cgal", CGAL_VERSION_STR},
           {"library_eigen",
            fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"library_fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                                      FMT_VERSION % 100)},
           {"library_gmp", gmp_version},
           {"library_hdf5", fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
           {"library_mpfr", mpfr_get_version()},
-          {"library_tbb", TBB_runtime_version()}};
+          {"library_openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
+          {"library_tbb", TBB_runtime_version()},
+          {"library_tomlplusplus",
+           fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)}};
 }
 
 std::string utc_now() {

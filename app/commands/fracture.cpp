@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -9,6 +11,7 @@
 
 #include "app/arguments.h"
 #include "app/command.h"
+#include "app/command_progress.h"
 #include "app/fragment_folder.h"
 #include "app/fragments_of_pieces.h"
 #include "app/result_json.h"
@@ -32,6 +35,8 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kTrajectoryFile = "trajectory.json";
+/// As in scenes written in TOML.
+constexpr double kBallLimit = 1e4;
 constexpr const char* kBallForm = "x,y,z,vx,vy,vz (m and m/s, normalised frame)";
 constexpr const char* kImpactForm =
     "px,py,pz,dx,dy,dz,I (point, direction and N s, normalised frame)";
@@ -61,7 +66,13 @@ Scenario scenario_of(const FractureArguments& arguments) {
   scenario.break_test = break_test_from(arguments.break_test, "--break-test");
   for (const std::string& text : arguments.balls) {
     const std::vector<double> v = parse_numbers(text, 6, "--ball", kBallForm);
-    scenario.balls.push_back({.position = {v[0], v[1], v[2]}, .velocity = {v[3], v[4], v[5]}});
+    const Vec3 position(v[0], v[1], v[2]);
+    const Vec3 velocity(v[3], v[4], v[5]);
+    if (std::max(position.cwiseAbs().maxCoeff(), velocity.cwiseAbs().maxCoeff()) > kBallLimit) {
+      throw InputError(fmt::format("--ball {}: places and speeds must be within {} m and m/s", text,
+                                   kBallLimit));
+    }
+    scenario.balls.push_back({.position = position, .velocity = velocity});
   }
   return scenario;
 }
@@ -131,6 +142,9 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
         fmt::format("give one of --ball {}, --impact {} and --scenario FILE (a scene in TOML)",
                     kBallForm, kImpactForm));
   }
+  if (!std::isfinite(arguments.longest_side)) {
+    throw InputError("--longest-side: must be a finite length in m");
+  }
   const Method& method = find_method(arguments.method);
   const Options options = parse_settings(method.options(), arguments.settings,
                                          fmt::format("method '{}'", arguments.method));
@@ -138,7 +152,7 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
 
   reset_peak_memory();
   StageTimer timer;
-  Progress progress;
+  CommandProgress progress;
   Random random(static_cast<std::uint64_t>(arguments.seed));
   Context context{random, timer, progress, stop, arguments.threads};
 

@@ -152,26 +152,28 @@ TEST_P(FractureRejects, BadInputWithExitCodeTwoAndAMessageThatNamesIt) {
 
 INSTANTIATE_TEST_SUITE_P(
     Arguments, FractureRejects,
-    ::testing::Values(BadCall{"cdv cube.obj --ball 3,0,0,-60,0,0", "did you mean 'cvd'"},
-                      BadCall{"cvd missing.obj --ball 3,0,0,-60,0,0", "missing.obj"},
-                      BadCall{"cvd open.obj --ball 3,0,0,-60,0,0", "open edge"},
-                      BadCall{"cvd nan.obj --ball 3,0,0,-60,0,0", "nan.obj"},
-                      BadCall{"cvd garbage.stl --ball 3,0,0,-60,0,0", "garbage.stl"},
-                      BadCall{"cvd cube.obj", "--ball"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0", "5 numbers, must be 6"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0,0", "more than 6"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,fast", "'fast' is not a number"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,inf", "'inf' is not a number"},
-                      BadCall{"cvd cube.obj --impact 0,0,0,1,0,0,1e5", "surface"},
-                      BadCall{"cvd cube.obj --impact=-0.95,0,0,1,0,0,-5", "-5"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites=0", "allowed is 1 to"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set site=5",
-                              "did you mean 'sites'"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites", "name=value"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --seed -1", "-1"},
-                      BadCall{"cvd cube.obj --scenario s.toml --break-test authors", "excludes"},
-                      BadCall{"cvd cube.obj --scenario none.toml", "none.toml: the scene cannot"},
-                      BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --format doc", "doc"}));
+    ::testing::Values(
+        BadCall{"cdv cube.obj --ball 3,0,0,-60,0,0", "did you mean 'cvd'"},
+        BadCall{"cvd missing.obj --ball 3,0,0,-60,0,0", "missing.obj"},
+        BadCall{"cvd open.obj --ball 3,0,0,-60,0,0", "open edge"},
+        BadCall{"cvd nan.obj --ball 3,0,0,-60,0,0", "nan.obj"},
+        BadCall{"cvd garbage.stl --ball 3,0,0,-60,0,0", "garbage.stl"},
+        BadCall{"cvd cube.obj", "--ball"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0", "5 numbers, must be 6"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0,0", "more than 6"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,fast", "'fast' is not a number"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,inf", "'inf' is not a number"},
+        BadCall{"cvd cube.obj --impact 0,0,0,1,0,0,1e5", "surface"},
+        BadCall{"cvd cube.obj --impact=-0.95,0,0,1,0,0,-5", "-5"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites=0", "allowed is 1 to"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set site=5", "did you mean 'sites'"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --set sites", "name=value"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --seed -1", "-1"},
+        BadCall{"cvd cube.obj --scenario s.toml --break-test authors", "excludes"},
+        BadCall{"cvd cube.obj --scenario none.toml", "none.toml: the scene cannot"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-1e9,0,0", "within 10000"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --longest-side nan", "--longest-side"},
+        BadCall{"cvd cube.obj --ball 3,0,0,-60,0,0 --format doc", "doc"}));
 
 }  // namespace
 }  // namespace fracbench
