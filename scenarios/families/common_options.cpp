@@ -39,6 +39,15 @@ OptionSpec count_option(std::int64_t fallback) {
           .maximum = 1e6};
 }
 
+OptionSpec speed_option(double fallback) {
+  return {.name = "speed",
+          .fallback = fallback,
+          .unit = "m/s",
+          .summary = "speed of every ball",
+          .minimum = 1e-3,
+          .maximum = 1e4};
+}
+
 OptionsSchema speed_options(double low, double high) {
   return {{.name = "speed_min",
            .fallback = low,

@@ -14,8 +14,9 @@ OptionsSchema common_options();
 /// Adds `schema` behind `first`.
 OptionsSchema joined(OptionsSchema first, const OptionsSchema& schema);
 
-/// Number of scenes and range of speeds.
+/// Number of scenes, one speed for all of them, and range of speeds.
 OptionSpec count_option(std::int64_t fallback);
+OptionSpec speed_option(double fallback);
 OptionsSchema speed_options(double low, double high);
 
 /// Where a ball of a sweep comes from, what it aims at, and how far away it starts.

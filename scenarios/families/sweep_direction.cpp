@@ -13,12 +13,7 @@ FamilyInfo SweepDirectionFamily::info() const {
 
 OptionsSchema SweepDirectionFamily::options() const {
   return joined({count_option(8),
-                 {.name = "speed",
-                  .fallback = 60.0,
-                  .unit = "m/s",
-                  .summary = "speed of every ball",
-                  .minimum = 1e-3,
-                  .maximum = 1e4},
+                 speed_option(60),
                  {.name = "turn_axis",
                   .fallback = std::vector<double>{0, 1, 0},
                   .unit = "",

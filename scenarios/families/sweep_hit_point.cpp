@@ -11,12 +11,7 @@ FamilyInfo SweepHitPointFamily::info() const {
 
 OptionsSchema SweepHitPointFamily::options() const {
   return joined({count_option(7),
-                 {.name = "speed",
-                  .fallback = 60.0,
-                  .unit = "m/s",
-                  .summary = "speed of every ball",
-                  .minimum = 1e-3,
-                  .maximum = 1e4},
+                 speed_option(60),
                  {.name = "shift_direction",
                   .fallback = std::vector<double>{0, 1, 0},
                   .unit = "",
