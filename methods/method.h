@@ -10,6 +10,7 @@
 #include "core/fragments.h"
 #include "core/options.h"
 #include "core/target.h"
+#include "methods/validation.h"
 
 namespace fracbench {
 
@@ -55,6 +56,9 @@ class Method {
   /// Reads what Breakable::save wrote below `folder` for the same target and options.
   virtual std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,
                                           const Options& options) const = 0;
+
+  /// The cases that hold the method to closed forms and published results, cheapest first.
+  virtual std::vector<ValidationCase> validation() const { return {}; }
 };
 
 }  // namespace fracbench

@@ -48,6 +48,7 @@ class Registered : public Method {
                                   const Options& options) const override {
     return method_->load(folder, target, options);
   }
+  std::vector<ValidationCase> validation() const override { return method_->validation(); }
 
  private:
   std::unique_ptr<Method> method_;
