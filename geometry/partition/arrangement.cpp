@@ -34,7 +34,8 @@ struct Side {
 
 /// The face with the given segments (indices) on it.
 FaceToSplit face_to_split(const Side& side, std::int32_t f, const Crossings& crossings,
-                          const InterfaceMesh& interfaces, std::span<const std::int32_t> segments) {
+                          const InterfaceComplex& interfaces,
+                          std::span<const std::int32_t> segments) {
   FaceToSplit face;
   face.normal = area_vector2(side.mesh, f);
   std::vector<std::pair<std::int32_t, std::int32_t>> index;  // crossing to point
@@ -81,7 +82,7 @@ FaceToSplit face_to_split(const Side& side, std::int32_t f, const Crossings& cro
   return face;
 }
 
-Splits split_faces(const Side& side, const Crossings& crossings, const InterfaceMesh& interfaces,
+Splits split_faces(const Side& side, const Crossings& crossings, const InterfaceComplex& interfaces,
                    int threads) {
   const auto face_of = [&](std::int32_t s) {
     return side.is_body ? crossings.segments[s].body_face : crossings.segments[s].interface_face;
@@ -166,8 +167,8 @@ std::vector<std::int32_t> vertex_sides(const Side& side, const Splits& splits,
 
 /// The region around a point that lies on no interface: that of a corner of its cell, or beyond the
 /// last interface on the way from there.
-std::int32_t region_at(const Vec3& point, const InterfaceMesh& interfaces,
-                       const VoxelGrid<std::int32_t>& grid) {
+std::int32_t region_in_lattice(const Vec3& point, const InterfaceMesh& interfaces,
+                               const VoxelGrid<std::int32_t>& grid) {
   const Vec3 local = (point - grid.origin) / grid.spacing;
   for (int corner = 0; corner < 8; ++corner) {
     const int i = static_cast<int>(std::floor(local.x())) + (corner & 1);
@@ -226,6 +227,14 @@ std::vector<std::uint8_t> flags(std::size_t count, const std::vector<std::int32_
 
 Arrangement arrange(const TriangleMesh& body, const InterfaceMesh& interfaces,
                     const Crossings& crossings, const LabelLattice& lattice, int threads) {
+  const RegionAt region_at = [&](const Vec3& point) {
+    return region_in_lattice(point, interfaces, lattice.region);
+  };
+  return arrange(body, interfaces, crossings, region_at, threads);
+}
+
+Arrangement arrange(const TriangleMesh& body, const InterfaceComplex& interfaces,
+                    const Crossings& crossings, const RegionAt& region_at, int threads) {
   const auto body_vertices = static_cast<std::int32_t>(body.vertices.size());
   const auto all_vertices =
       static_cast<std::int32_t>(body.vertices.size() + interfaces.mesh.vertices.size());
@@ -237,7 +246,7 @@ Arrangement arrange(const TriangleMesh& body, const InterfaceMesh& interfaces,
   const auto interface_cut = flags(interfaces.mesh.faces.size(), interface_splits.faces);
 
   const auto body_region = vertex_sides(body_side, body_splits, body_cut, [&](std::int32_t v) {
-    return region_at(body.vertices[v], interfaces, lattice.region);
+    return region_at(body.vertices[v]);
   });
   constexpr int few = 32;  // for more points, a tree over the faces is quicker
   int asked = 0;

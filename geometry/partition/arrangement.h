@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -27,8 +28,16 @@ struct Arrangement {
   std::vector<InterfacePart> interfaces;
 };
 
+/// The region around a point that lies on no interface; asked for a vertex of the body in each part
+/// of its surface that no interface meets.
+using RegionAt = std::function<std::int32_t(const Vec3& point)>;
+
 /// `body` must be closed and free of self-intersections. Throws NotGeneric.
 Arrangement arrange(const TriangleMesh& body, const InterfaceMesh& interfaces,
                     const Crossings& crossings, const LabelLattice& lattice, int threads);
+
+/// The same for interfaces that come from no lattice.
+Arrangement arrange(const TriangleMesh& body, const InterfaceComplex& interfaces,
+                    const Crossings& crossings, const RegionAt& region_at, int threads);
 
 }  // namespace fracbench::partition

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "geometry/exact_predicates.h"
+#include "geometry/triangle_tree.h"
 
 namespace fracbench::partition {
 namespace {
@@ -115,36 +116,21 @@ void intersect(const TriangleMesh& body, const TriangleMesh& interfaces, std::in
   found.push_back(segment);
 }
 
-std::vector<Found> intersect_all(const TriangleMesh& body, const InterfaceMesh& interfaces,
-                                 const VoxelGrid<std::int32_t>& grid, int threads) {
-  const FacesInCells cells(body, interfaces, grid);
+/// `make_near()` gives a function that finds, for an interface face, the faces of the body that may
+/// meet it, ascending; one is made for each of the parallel parts.
+template <typename MakeNear>
+std::vector<Found> intersect_all(const TriangleMesh& body, const TriangleMesh& interfaces,
+                                 const MakeNear& make_near, int threads) {
   constexpr std::size_t chunk = 4096;
-  const std::size_t count = interfaces.mesh.faces.size();
+  const std::size_t count = interfaces.faces.size();
   std::vector<std::vector<Found>> found((count + chunk - 1) / chunk);
   std::atomic<bool> generic = true;
   parallel_for(found.size(), threads, [&](std::size_t n) {
-    std::vector<std::int32_t> near;
-    std::int64_t last = -1;
+    auto near = make_near();
     try {
       for (std::size_t i = n * chunk; i < std::min(count, (n + 1) * chunk); ++i) {
-        if (interfaces.edge[i] != last) {
-          last = interfaces.edge[i];
-          near.clear();
-          int lists = 0;
-          for_each_cell_of_edge(grid, last, [&](std::size_t cell) {
-            const std::int32_t r = cells.rank[cell];
-            if (cells.begin[r] == cells.begin[r + 1]) return;
-            near.insert(near.end(), cells.faces.begin() + cells.begin[r],
-                        cells.faces.begin() + cells.begin[r + 1]);
-            ++lists;
-          });
-          if (lists > 1) {
-            std::sort(near.begin(), near.end());
-            near.erase(std::unique(near.begin(), near.end()), near.end());
-          }
-        }
-        for (const std::int32_t s : near) {
-          intersect(body, interfaces.mesh, s, static_cast<std::int32_t>(i), found[n]);
+        for (const std::int32_t s : near(i)) {
+          intersect(body, interfaces, s, static_cast<std::int32_t>(i), found[n]);
         }
       }
     } catch (const NotGeneric&) {
@@ -156,6 +142,77 @@ std::vector<Found> intersect_all(const TriangleMesh& body, const InterfaceMesh& 
   for (auto& part : found) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
+
+/// The faces of the body in the cells around the lattice edge that an interface face crosses.
+class NearLatticeEdge {
+ public:
+  NearLatticeEdge(const FacesInCells& cells, const InterfaceMesh& interfaces,
+                  const VoxelGrid<std::int32_t>& grid)
+      : cells_(cells), interfaces_(interfaces), grid_(grid) {}
+
+  const std::vector<std::int32_t>& operator()(std::size_t i) {
+    if (interfaces_.edge[i] == last_) return near_;
+    last_ = interfaces_.edge[i];
+    near_.clear();
+    int lists = 0;
+    for_each_cell_of_edge(grid_, last_, [&](std::size_t cell) {
+      const std::int32_t r = cells_.rank[cell];
+      if (cells_.begin[r] == cells_.begin[r + 1]) return;
+      near_.insert(near_.end(), cells_.faces.begin() + cells_.begin[r],
+                   cells_.faces.begin() + cells_.begin[r + 1]);
+      ++lists;
+    });
+    if (lists > 1) {
+      std::sort(near_.begin(), near_.end());
+      near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+    }
+    return near_;
+  }
+
+ private:
+  const FacesInCells& cells_;
+  const InterfaceMesh& interfaces_;
+  const VoxelGrid<std::int32_t>& grid_;
+  std::vector<std::int32_t> near_;
+  std::int64_t last_ = -1;
+};
+
+/// The faces of the body whose boxes meet that of an interface face.
+class NearInTree {
+ public:
+  NearInTree(const TriangleTree& tree, const TriangleMesh& interfaces)
+      : tree_(tree), interfaces_(interfaces) {}
+
+  const std::vector<std::int32_t>& operator()(std::size_t i) {
+    near_.clear();
+    const Vec3 &a = interfaces_.corner(i, 0), &b = interfaces_.corner(i, 1),
+               &c = interfaces_.corner(i, 2);
+    const Eigen::Vector3f low = tree_.to_box_frame(a.cwiseMin(b).cwiseMin(c)).array() - slack;
+    const Eigen::Vector3f high = tree_.to_box_frame(a.cwiseMax(b).cwiseMax(c)).array() + slack;
+    tree_.visit(
+        [&](const TriangleTree::Node& node) {
+          unsigned mask = 0;
+          for (int k = 0; k < 4; ++k) {
+            bool meets = true;
+            for (int axis = 0; axis < 3; ++axis) {
+              meets &= node.low[axis][k] <= high[axis] && node.high[axis][k] >= low[axis];
+            }
+            mask |= static_cast<unsigned>(meets) << k;
+          }
+          return mask;
+        },
+        [&](std::int32_t t) { near_.push_back(tree_.triangles()[t].face); });
+    std::sort(near_.begin(), near_.end());
+    return near_;
+  }
+
+ private:
+  static constexpr float slack = 1e-5f;  // covers the rounding to single precision
+
+  const TriangleTree& tree_;
+  const TriangleMesh& interfaces_;
+  std::vector<std::int32_t> near_;
+};
 
 using Quad3 = std::array<Quad, 3>;
 
@@ -196,9 +253,10 @@ std::pair<std::int32_t, std::int32_t> Crossings::on_edge(bool body_edge, std::in
           static_cast<std::int32_t>(high - crossings.begin())};
 }
 
-Crossings find_crossings(const TriangleMesh& body, const InterfaceMesh& interfaces,
-                         const VoxelGrid<std::int32_t>& grid, int threads) {
-  std::vector<Found> found = intersect_all(body, interfaces, grid, threads);
+namespace {
+
+Crossings number_crossings(const TriangleMesh& body, const TriangleMesh& interfaces,
+                           std::vector<Found> found, int threads) {
   std::sort(found.begin(), found.end(), [](const Found& l, const Found& r) {
     return std::tie(l.body_face, l.interface_face) < std::tie(r.body_face, r.interface_face);
   });
@@ -219,8 +277,8 @@ Crossings find_crossings(const TriangleMesh& body, const InterfaceMesh& interfac
   parallel_for(
       unique.size(), threads,
       [&](std::size_t n) {
-        along[n] = unique[n].body_edge ? place(unique[n], body, interfaces.mesh)
-                                       : place(unique[n], interfaces.mesh, body);
+        along[n] = unique[n].body_edge ? place(unique[n], body, interfaces)
+                                       : place(unique[n], interfaces, body);
       },
       256);
 
@@ -253,6 +311,23 @@ Crossings find_crossings(const TriangleMesh& body, const InterfaceMesh& interfac
       },
       256);
   return result;
+}
+
+}  // namespace
+
+Crossings find_crossings(const TriangleMesh& body, const InterfaceMesh& interfaces,
+                         const VoxelGrid<std::int32_t>& grid, int threads) {
+  const FacesInCells cells(body, interfaces, grid);
+  const auto make_near = [&] { return NearLatticeEdge(cells, interfaces, grid); };
+  return number_crossings(body, interfaces.mesh,
+                          intersect_all(body, interfaces.mesh, make_near, threads), threads);
+}
+
+Crossings find_crossings(const TriangleMesh& body, const TriangleMesh& interfaces, int threads) {
+  const TriangleTree tree(body);
+  const auto make_near = [&] { return NearInTree(tree, interfaces); };
+  return number_crossings(body, interfaces, intersect_all(body, interfaces, make_near, threads),
+                          threads);
 }
 
 }  // namespace fracbench::partition

@@ -50,4 +50,7 @@ struct Crossings {
 Crossings find_crossings(const TriangleMesh& body, const InterfaceMesh& interfaces,
                          const VoxelGrid<std::int32_t>& grid, int threads);
 
+/// The same for triangles that come from no lattice, slower. Throws NotGeneric.
+Crossings find_crossings(const TriangleMesh& body, const TriangleMesh& interfaces, int threads);
+
 }  // namespace fracbench::partition

@@ -9,11 +9,17 @@
 
 namespace fracbench::partition {
 
-/// The triangles between the regions of a lattice, all in one complex with shared vertices.
-struct InterfaceMesh {
+/// The triangles between regions, which are numbered from 1 (0: the void), all in one complex with
+/// shared vertices. Within the body they do not cross each other; where the complex ends, it ends
+/// outside the body.
+struct InterfaceComplex {
   TriangleMesh mesh;
   /// Per face: the region that its normal points away from, and the one that it points into.
   std::vector<std::array<std::int32_t, 2>> sides;
+};
+
+/// The interfaces between the regions of a lattice.
+struct InterfaceMesh : InterfaceComplex {
   /// Per face: the edge of the lattice that it crosses: 8 * (index of its lower sample) + step.
   std::vector<std::int64_t> edge;
   std::size_t ambiguous_cells = 0;
