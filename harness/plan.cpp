@@ -201,7 +201,7 @@ Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& op
   for (const SuiteMethod& entry :
        kept(suite.methods, options.methods, "--methods", [](const auto& m) { return m.name; })) {
     const Method& method = catalog.method(entry.name, suite.name);
-    plan.methods.push_back({entry.label, &method, method.info(), entry.options});
+    plan.methods.push_back({entry.label, &method, method.info(), entry.options, entry.limits});
   }
   const std::vector<SuiteShape> shapes =
       kept(suite.shapes, options.shapes, "--shapes", [](const auto& s) { return s.request.name; });

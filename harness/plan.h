@@ -45,6 +45,7 @@ struct PlannedMethod {
   const Method* method = nullptr;
   MethodInfo info;
   Options options;
+  CellLimits limits = {};
 };
 
 /// One thing to measure: a shape broken once by a method in a scene.

@@ -102,8 +102,45 @@ const OptionsSchema& suite_schema() {
        .summary = "that one cell may use",
        .minimum = 1,
        .maximum = 1024},
+      {.name = "warm_up",
+       .fallback = std::int64_t{0},
+       .unit = "",
+       .summary = "runs that are thrown away each time a body was prepared",
+       .minimum = 0,
+       .maximum = 1000},
   };
   return schema;
+}
+
+const OptionsSchema& limits_schema() {
+  static const OptionsSchema schema = {
+      {.name = "timeout_s",
+       .fallback = CellLimits{}.timeout_s,
+       .unit = "s",
+       .summary = "that a cell may take once its body is prepared; 0: any time",
+       .minimum = 0},
+      {.name = "prepare_timeout_s",
+       .fallback = CellLimits{}.prepare_timeout_s,
+       .unit = "s",
+       .summary = "that preparing a body may take; 0: any time",
+       .minimum = 0},
+      {.name = "memory_mb",
+       .fallback = CellLimits{}.memory_mb,
+       .unit = "MiB",
+       .summary = "that the process of a cell may take; 0: what the machine has",
+       .minimum = 0},
+  };
+  return schema;
+}
+
+CellLimits with_limits(CellLimits limits, const OptionMap& given, std::string_view where) {
+  const Options checked(limits_schema(), given, where);
+  for (const auto& [name, value] : given) {
+    if (name == "timeout_s") limits.timeout_s = checked.number(name);
+    if (name == "prepare_timeout_s") limits.prepare_timeout_s = checked.number(name);
+    if (name == "memory_mb") limits.memory_mb = checked.number(name);
+  }
+  return limits;
 }
 
 const OptionsSchema& shape_schema() {

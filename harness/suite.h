@@ -23,10 +23,19 @@ struct SuiteScenario {
   Options options;
 };
 
+/// What one cell may take before it is ended. 0: no limit of the suite's.
+struct CellLimits {
+  double timeout_s = 3600;           ///< wall clock for the scene, once the body is prepared
+  double prepare_timeout_s = 86400;  ///< wall clock for preparing the body
+  double memory_mb = 0;              ///< resident memory of its process, MiB; 0: what is there
+  bool operator==(const CellLimits&) const = default;
+};
+
 struct SuiteMethod {
   std::string label;  ///< unique in the suite
   std::string name;   ///< in the registry
   Options options;
+  CellLimits limits = {};  ///< no part of the suite's identity: see docs/records.md
 };
 
 /// What is to be measured: every shape in every scenario with every method, each `repeats` times.
@@ -37,6 +46,7 @@ struct Suite {
   std::uint64_t seed = 1;
   int repeats = 1;           ///< with the same impacts and other random numbers for the method
   int threads_per_cell = 1;  ///< part of what determines a result, see docs/records.md
+  int warm_up = 0;           ///< runs that are thrown away after a body was prepared
   /// Where files that the suite names are looked for first. No part of the suite's identity, so
   /// that it is the same suite wherever it lies and from wherever it is run.
   std::filesystem::path folder;
@@ -45,7 +55,8 @@ struct Suite {
   std::vector<SuiteMethod> methods;
 };
 
-/// Everything that determines the suite's results, defaults included; the summary does not.
+/// Everything that determines the suite's results, defaults included; the summary, the limits and
+/// warm-up runs do not.
 nlohmann::ordered_json to_json(const Suite& suite);
 
 /// Where a file is that a suite names: below the user's folder of shapes where the name begins with
@@ -59,6 +70,10 @@ bool names_a_file(std::string_view shape);
 /// ranges.
 const OptionsSchema& suite_schema();
 const OptionsSchema& shape_schema();
+/// The members of CellLimits, which stand at the suite's top or with a method.
+const OptionsSchema& limits_schema();
+/// Those of `limits` that `given`, checked against the schema, has values for are replaced.
+CellLimits with_limits(CellLimits limits, const OptionMap& given, std::string_view where);
 
 /// Throws InputError for a suite without shapes, scenarios or methods, and for labels that are
 /// used twice or hold anything but letters, digits and ". _ + -", and for a name that is a path.

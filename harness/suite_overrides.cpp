@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,20 @@ namespace {
 constexpr std::string_view kWhere = "--set";
 
 const std::vector<std::string>& suite_keys() {
-  static const std::vector<std::string> keys = {"seed",   "repeats",  "threads_per_cell",
-                                                "method", "scenario", "shape"};
+  static const std::vector<std::string> keys = {
+      "seed",      "repeats",           "threads_per_cell", "warm_up",  "timeout_s",
+      "memory_mb", "prepare_timeout_s", "method",           "scenario", "shape"};
   return keys;
+}
+
+bool is_limit(std::string_view key) {
+  return std::ranges::find(limits_schema(), key, &OptionSpec::name) != limits_schema().end();
+}
+
+void set_limit(SuiteMethod& method, std::string_view key, std::string_view text,
+               std::string_view where) {
+  const OptionValue value = parse_option(limits_schema(), key, text, where);
+  method.limits = with_limits(method.limits, {{std::string(key), value}}, where);
 }
 
 Options replaced(const Options& options, const OptionsSchema& schema, std::string_view option,
@@ -51,6 +63,7 @@ void set_top_value(Suite& suite, std::string_view key, std::string_view text) {
   if (key == "seed") suite.seed = static_cast<std::uint64_t>(number);
   if (key == "repeats") suite.repeats = static_cast<int>(number);
   if (key == "threads_per_cell") suite.threads_per_cell = static_cast<int>(number);
+  if (key == "warm_up") suite.warm_up = static_cast<int>(number);
 }
 
 void set_shape_value(SuiteShape& shape, std::string_view option, std::string_view text,
@@ -73,8 +86,12 @@ Suite with_override(Suite suite, std::string_view assignment, const Catalog& cat
   }
   const std::string_view key = assignment.substr(0, equals);
   const std::string_view text = assignment.substr(equals + 1);
-  if (key == "seed" || key == "repeats" || key == "threads_per_cell") {
+  if (key == "seed" || key == "repeats" || key == "threads_per_cell" || key == "warm_up") {
     set_top_value(suite, key, text);
+    return suite;
+  }
+  if (is_limit(key)) {
+    for (SuiteMethod& method : suite.methods) set_limit(method, key, text, kWhere);
     return suite;
   }
   // A label may hold dots, the names of kinds and options never do.
@@ -93,6 +110,7 @@ Suite with_override(Suite suite, std::string_view assignment, const Catalog& cat
   const std::string_view option = key.substr(last + 1);
   if (kind == "method") {
     change_entries(suite.methods, kind, label, [&](SuiteMethod& method, const std::string& where) {
+      if (is_limit(option)) return set_limit(method, option, text, where);
       const OptionsSchema schema = catalog.method(method.name, where).options();
       method.options = replaced(method.options, schema, option, text, where);
     });

@@ -8,7 +8,8 @@
 namespace fracbench {
 
 /// Changes one value of a suite, as --set does. `assignment` is "key=value" with one of the keys
-///   seed, repeats, threads_per_cell
+///   seed, repeats, threads_per_cell, warm_up
+///   timeout_s, prepare_timeout_s, memory_mb, for all methods or as method.LABEL.timeout_s
 ///   method.LABEL.OPTION, scenario.LABEL.OPTION, shape.LABEL.OPTION
 /// where LABEL may be * for all of them. Throws InputError, naming the nearest valid key.
 Suite with_override(Suite suite, std::string_view assignment, const Catalog& catalog);

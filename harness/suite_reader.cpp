@@ -69,6 +69,25 @@ Options read_options(const Entry& entry, const OptionsSchema& schema,
   return Options(schema, given, entry.where());
 }
 
+/// Which keys of the table are limits, checked one by one.
+OptionMap read_limits(const Entry& entry) {
+  OptionMap given;
+  for (const OptionSpec& spec : limits_schema()) {
+    const toml::node* node = entry.table.get(spec.name);
+    if (!node) continue;
+    const std::string where = entry.where(*node);
+    given[spec.name] = option_value(*node, spec.name, where);
+    with_limits({}, {{spec.name, given[spec.name]}}, where);
+  }
+  return given;
+}
+
+/// `keys`, and those of the limits.
+std::vector<std::string> and_limits(std::vector<std::string> keys) {
+  for (const OptionSpec& spec : limits_schema()) keys.push_back(spec.name);
+  return keys;
+}
+
 std::optional<std::string> read_text(const Entry& entry, std::string_view key) {
   const toml::node* node = entry.table.get(key);
   if (!node) return std::nullopt;
@@ -154,13 +173,16 @@ std::vector<SuiteScenario> read_scenarios(const Entry& top, const Catalog& catal
 
 std::vector<SuiteMethod> read_methods(const Entry& top, const Catalog& catalog) {
   std::vector<SuiteMethod> methods;
+  const CellLimits limits = with_limits({}, read_limits(top), top.where());
   for (Entry& entry : read_entries(top, "method")) {
     const std::string name = require_text(entry, "name", "cvd");
     const Method& known = catalog.method(name, entry.where(*entry.table.get("name")));
     entry.what = fmt::format("method '{}'", name);
-    methods.push_back({.label = read_text(entry, "label").value_or(name),
-                       .name = name,
-                       .options = read_options(entry, known.options(), {"name", "label"})});
+    methods.push_back(
+        {.label = read_text(entry, "label").value_or(name),
+         .name = name,
+         .options = read_options(entry, known.options(), and_limits({"name", "label"})),
+         .limits = with_limits(limits, read_limits(entry), entry.where())});
   }
   return methods;
 }
@@ -178,7 +200,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   }
   const Entry top{table, source, ""};
   const Options values =
-      read_options(top, suite_schema(), {"shape", "shapes", "scenario", "method"});
+      read_options(top, suite_schema(), and_limits({"shape", "shapes", "scenario", "method"}));
   Suite suite;
   suite.folder = source.parent_path();
   suite.name = values.text("name").empty() ? source.stem().string() : values.text("name");
@@ -186,6 +208,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   suite.seed = static_cast<std::uint64_t>(values.integer("seed"));
   suite.repeats = static_cast<int>(values.integer("repeats"));
   suite.threads_per_cell = static_cast<int>(values.integer("threads_per_cell"));
+  suite.warm_up = static_cast<int>(values.integer("warm_up"));
   suite.shapes = read_shapes(top);
   suite.scenarios = read_scenarios(top, catalog);
   suite.methods = read_methods(top, catalog);

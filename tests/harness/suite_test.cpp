@@ -146,6 +146,29 @@ TEST_F(SuiteTest, OverridesThatCannotBeMeantAreRefusedWithTheWayOut) {
   EXPECT_THAT(set_message("seed=-1"), HasSubstr("at least 0"));
 }
 
+TEST_F(SuiteTest, LimitsStandAtTheTopForAllMethodsOrWithOne) {
+  std::string text = toy_suite_text();
+  EXPECT_EQ(parse_suite(text, "toy.toml", catalog).methods[0].limits, CellLimits{});
+  text.replace(text.find("seed = 5"), 8, "seed = 5\ntimeout_s = 20\nmemory_mb = 500\nwarm_up = 2");
+  text += "timeout_s = 7\nprepare_timeout_s = 9\n";
+  Suite suite = parse_suite(text, "toy.toml", catalog);
+  EXPECT_EQ(suite.warm_up, 2);
+  EXPECT_EQ(suite.methods[0].limits, (CellLimits{20, CellLimits{}.prepare_timeout_s, 500}));
+  EXPECT_EQ(suite.methods[1].limits, (CellLimits{7, 9, 500}));
+  const nlohmann::ordered_json before = to_json(suite);
+  suite = with_override(suite, "memory_mb=900", catalog);
+  suite = with_override(suite, "method.halves-wide.timeout_s=0.5", catalog);
+  suite = with_override(suite, "warm_up=0", catalog);
+  EXPECT_EQ(suite.methods[0].limits, (CellLimits{20, CellLimits{}.prepare_timeout_s, 900}));
+  EXPECT_EQ(suite.methods[1].limits, (CellLimits{0.5, 9, 900}));
+  EXPECT_EQ(to_json(suite), before) << "limits are no part of what a suite is";
+  EXPECT_THAT(message("seed = 5", "timeout_s = -1"),
+              AllOf(HasSubstr("toy.toml:3"), HasSubstr("at least 0 s")));
+  EXPECT_THAT(message("margin = 0.2", "memory_mb = \"all\""), HasSubstr("toy.toml:20"));
+  EXPECT_THAT(message("seed = 5", "timeout = 1"), HasSubstr("did you mean 'timeout_s'?"));
+  EXPECT_THAT(set_message("memory_mb=-1"), HasSubstr("at least 0"));
+}
+
 TEST_F(SuiteTest, IsFoundByNameInTheUsersFoldersFirst) {
   const TemporaryFolder temporary;
   const std::filesystem::path& folder = temporary.path();
