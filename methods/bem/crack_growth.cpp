@@ -1,0 +1,342 @@
+#include "methods/bem/crack_growth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "methods/bem/front_loop.h"
+
+namespace fracbench::bem {
+namespace {
+
+constexpr int kFirstMarkers = 8;
+constexpr double kFirstRadius = 1.4;     // spacings
+constexpr double kSurfaceOvershoot = 2;  // voxels beyond the last point inside
+constexpr double kCrackOvershoot = 1;    // voxels beyond the other crack
+constexpr double kMarch = 0.5;           // voxels, step of the search for the surface
+constexpr double kReach = 3;             // voxels from the front's end to the surface beside it
+constexpr double kSplit = 1.5;           // spacings
+constexpr double kMerge = 0.5;           // spacings
+
+/// Where a way out of the body or into another crack ends.
+struct Stop {
+  Vec3 position;
+  FrontState state;
+};
+
+/// Goes straight from `from`, a point in the body, for `length`; empty where nothing is in the way.
+std::optional<Stop> stop_on_way(const Vec3& from, const Vec3& direction, double length,
+                                std::int32_t id, const CutLinks& links) {
+  const double voxel = links.spacing();
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / (kMarch * voxel) - 1e-9)));
+  const auto at = [&](double s) -> Vec3 { return from + s * direction; };
+  double before = 0;
+  for (int k = 1; k <= steps; ++k) {
+    const double here = length * k / steps;
+    if (links.crack_between(at(before), at(here), id) >= 0) {
+      return Stop{at(here + kCrackOvershoot * voxel), FrontState::at_crack};
+    }
+    if (!links.inside(at(here))) {
+      // Not so far that it enters the body again on the other side of a gap.
+      double end = here;
+      for (int over = 1; over <= static_cast<int>(kSurfaceOvershoot / kMarch); ++over) {
+        const double next = here + over * kMarch * voxel;
+        if (links.inside(at(next))) break;
+        end = next;
+      }
+      return Stop{at(end), FrontState::at_surface};
+    }
+    before = here;
+  }
+  return std::nullopt;
+}
+
+/// Share of a triangle that lies in the body, from the centres of 64 equal parts where it crosses
+/// the surface.
+double share_inside(const Vec3& a, const Vec3& b, const Vec3& c, const CutLinks& links) {
+  const int corners = links.inside(a) + links.inside(b) + links.inside(c);
+  if (corners == 0 || corners == 3) return corners / 3;
+  constexpr int kParts = 8;
+  int count = 0;
+  for (int i = 0; i < kParts; ++i) {
+    for (int j = 0; i + j < kParts; ++j) {
+      // The upright part at (i, j), and the inverted one beside it where there is one.
+      for (int k = 0; k < (i + j + 1 < kParts ? 2 : 1); ++k) {
+        const double s = (i + (1 + k) / 3.0) / kParts, t = (j + (1 + k) / 3.0) / kParts;
+        count += links.inside(a + s * (b - a) + t * (c - a));
+      }
+    }
+  }
+  return count / static_cast<double>(kParts * kParts);
+}
+
+/// The front during one substep, and the surface that it sweeps.
+class Sweep {
+ public:
+  Sweep(Crack& crack, std::int32_t id, CutLinks& links, const GrowthOptions& options)
+      : crack_(crack), id_(id), links_(links), options_(options) {}
+
+  void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c);
+  void merge_close_markers();
+  void move(double duration);
+  double area() const { return area_; }
+
+ private:
+  std::int32_t add_vertex(const Vec3& position) {
+    crack_.surface.vertices.push_back(position);
+    return static_cast<std::int32_t>(crack_.surface.vertices.size()) - 1;
+  }
+  /// New markers between a and its successor b, in order.
+  std::vector<FrontMarker> between(const FrontMarker& a, const FrontMarker& b) const;
+  std::vector<FrontMarker> beside(const FrontMarker& end, const FrontMarker& stopped) const;
+  void fill(std::int32_t from, std::int32_t to, std::span<const std::int32_t> chain);
+
+  Crack& crack_;
+  std::int32_t id_;
+  CutLinks& links_;
+  const GrowthOptions& options_;
+  double area_ = 0;
+};
+
+void Sweep::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
+  if (a == b || b == c || c == a) return;
+  const auto& v = crack_.surface.vertices;
+  crack_.surface.faces.push_back({a, b, c});
+  links_.cut({v[a], v[b], v[c]}, id_);
+  area_ += 0.5 * (v[b] - v[a]).cross(v[c] - v[a]).norm() * share_inside(v[a], v[b], v[c], links_);
+}
+
+/// Where the front converges, markers vanish; the surface between is filled.
+void Sweep::merge_close_markers() {
+  std::vector<FrontMarker>& front = crack_.front;
+  for (std::size_t i = 0; i < front.size() && front.size() > 3;) {
+    const std::size_t next = (i + 1) % front.size();
+    const FrontMarker& a = front[i];
+    const FrontMarker& b = front[next];
+    const bool close = (a.position - b.position).norm() < kMerge * options_.spacing;
+    const auto may_go = [](const FrontMarker& m) {
+      return m.state == FrontState::advancing && m.coarse < 0;
+    };
+    if (!close || !(may_go(a) || may_go(b))) {
+      ++i;
+      continue;
+    }
+    const std::size_t gone = may_go(b) ? next : i;
+    const std::size_t before = (gone + front.size() - 1) % front.size();
+    const std::size_t after = (gone + 1) % front.size();
+    add_triangle(front[after].vertex, front[gone].vertex, front[before].vertex);
+    front.erase(front.begin() + static_cast<std::ptrdiff_t>(gone));
+    if (gone < i) --i;
+  }
+}
+
+/// At the end of an advancing run the front is drawn along the surface, or the crack, at which its
+/// neighbour stopped; where that lies far off, the front spreads sideways.
+std::vector<FrontMarker> Sweep::beside(const FrontMarker& end, const FrontMarker& stopped) const {
+  const Vec3 apart = stopped.position - end.position;
+  const double distance = apart.norm();
+  if (distance < 1.2 * options_.spacing) return {};
+  Vec3 sideways = apart - apart.dot(end.forward) * end.forward;
+  if (sideways.norm() < 0.1 * distance) return {};
+  sideways.normalize();
+  FrontMarker marker = end;
+  marker.coarse = -1;
+  if (const auto stop =
+          stop_on_way(end.position, sideways, kReach * links_.spacing(), id_, links_)) {
+    if ((stop->position - stopped.position).norm() < options_.spacing) return {};
+    marker.position = stop->position;
+    marker.state = stop->state;
+    return {marker};
+  }
+  if (distance < kSplit * options_.spacing) return {};
+  marker.position = end.position + std::min(options_.spacing, 0.5 * distance) * sideways;
+  marker.forward = (2 * end.forward + sideways).normalized();
+  marker.normal = (end.normal - end.normal.dot(marker.forward) * marker.forward).normalized();
+  return {marker};
+}
+
+std::vector<FrontMarker> Sweep::between(const FrontMarker& a, const FrontMarker& b) const {
+  const bool a_advances = a.state == FrontState::advancing;
+  const bool b_advances = b.state == FrontState::advancing;
+  if (a_advances && !b_advances) return beside(a, b);
+  if (b_advances && !a_advances) return beside(b, a);
+  const double distance = (b.position - a.position).norm();
+  if (!a_advances || distance <= kSplit * options_.spacing) return {};
+  const int count = static_cast<int>(std::ceil(distance / options_.spacing)) - 1;
+  std::vector<FrontMarker> markers(count, a);
+  for (int k = 0; k < count; ++k) {
+    const double t = (k + 1.0) / (count + 1);
+    FrontMarker& m = markers[k];
+    m.coarse = -1;
+    m.position = (1 - t) * a.position + t * b.position;
+    m.speed = (1 - t) * a.speed + t * b.speed;
+    const Vec3 forward = (1 - t) * a.forward + t * b.forward;
+    if (forward.norm() > 0.1) m.forward = forward.normalized();
+    const Vec3 normal = (1 - t) * a.normal + t * b.normal;
+    const Vec3 upright = normal - normal.dot(m.forward) * m.forward;
+    if (upright.norm() > 0.1) m.normal = upright.normalized();
+    if (!links_.inside(m.position)) m.state = FrontState::at_surface;
+  }
+  return markers;
+}
+
+/// The surface between the front's old edge from -> to and its new way over `chain`.
+void Sweep::fill(std::int32_t from, std::int32_t to, std::span<const std::int32_t> chain) {
+  const auto& v = crack_.surface.vertices;
+  std::size_t apex = 0;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const double length = (v[chain[k]] - v[from]).norm() + (v[chain[k]] - v[to]).norm();
+    if (chain[k] == from || chain[k] == to || length >= best) continue;
+    best = length;
+    apex = k;
+  }
+  for (std::size_t k = 0; k < apex; ++k) add_triangle(from, chain[k], chain[k + 1]);
+  add_triangle(to, from, chain[apex]);
+  for (std::size_t k = apex; k + 1 < chain.size(); ++k) add_triangle(to, chain[k], chain[k + 1]);
+}
+
+void Sweep::move(double duration) {
+  const std::vector<FrontMarker> old = crack_.front;
+  std::vector<FrontMarker> moved = old;
+  const std::size_t count = old.size();
+  for (FrontMarker& m : moved) {
+    const double length = m.speed * duration;
+    if (m.state != FrontState::advancing || !(length > 0)) continue;
+    if (const auto stop = stop_on_way(m.position, m.forward, length, id_, links_)) {
+      m.position = stop->position;
+      m.state = stop->state;
+    } else {
+      m.position += length * m.forward;
+    }
+  }
+  // Neighbours that would pass each other meet in the middle.
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    FrontMarker& a = moved[i];
+    FrontMarker& b = moved[next];
+    if (a.state != FrontState::advancing || b.state != FrontState::advancing) continue;
+    const Vec3 before = old[next].position - old[i].position;
+    if ((b.position - a.position).dot(before) > 0.1 * before.squaredNorm()) continue;
+    a.position = b.position = 0.5 * (a.position + b.position);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (moved[i].position != old[i].position) moved[i].vertex = add_vertex(moved[i].position);
+  }
+  std::vector<FrontMarker> front;
+  front.reserve(count + count / 4);
+  std::vector<std::int32_t> chain;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    std::vector<FrontMarker> inserted = between(moved[i], moved[next]);
+    front.push_back(moved[i]);
+    chain.assign(1, moved[i].vertex);
+    for (FrontMarker& m : inserted) {
+      m.vertex = add_vertex(m.position);
+      chain.push_back(m.vertex);
+      front.push_back(m);
+    }
+    chain.push_back(moved[next].vertex);
+    if (chain.size() == 2 && chain[0] == old[i].vertex && chain[1] == old[next].vertex) continue;
+    fill(old[i].vertex, old[next].vertex, chain);
+  }
+  crack_.front = std::move(front);
+}
+
+/// The disc's plane at the element: `inward` points from the surface into the body.
+struct SeedPlane {
+  Vec3 center;
+  Vec3 inward, sideways;
+};
+
+SeedPlane seed_plane(const CrackSeed& seed, const Vec3& surface_normal, double depth) {
+  SeedPlane plane;
+  plane.center = seed.position - depth * surface_normal;
+  Vec3 inward = -surface_normal + surface_normal.dot(seed.normal) * seed.normal;
+  if (inward.norm() < 1e-3) inward = seed.normal.unitOrthogonal();
+  plane.inward = inward.normalized();
+  plane.sideways = seed.normal.cross(plane.inward);
+  return plane;
+}
+
+}  // namespace
+
+bool advances(const Crack& crack) {
+  return std::any_of(crack.front.begin(), crack.front.end(),
+                     [](const FrontMarker& m) { return m.state == FrontState::advancing; });
+}
+
+double advance(Crack& crack, std::int32_t id, double duration, CutLinks& links,
+               const GrowthOptions& options) {
+  Sweep sweep(crack, id, links, options);
+  sweep.merge_close_markers();
+  sweep.move(duration);
+  return sweep.area();
+}
+
+std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, CutLinks& links,
+                                      const GrowthOptions& options) {
+  // The element's centre may lie just outside the voxels: look a little deeper.
+  for (const double depth : {0.0, 1.0, 2.0, 3.0}) {
+    const SeedPlane plane = seed_plane(seed, seed.surface_normal, depth * links.spacing());
+    SeededCrack seeded;
+    Crack& crack = seeded.crack;
+    crack.surface.vertices.push_back(plane.center);
+    bool any = false;
+    for (int k = 0; k < kFirstMarkers; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + 0.5) / kFirstMarkers;
+      FrontMarker marker;
+      marker.forward = std::cos(angle) * plane.inward + std::sin(angle) * plane.sideways;
+      marker.normal = seed.normal;
+      marker.speed = 1;
+      marker.position = plane.center + kFirstRadius * options.spacing * marker.forward;
+      if (!links.inside(marker.position)) {
+        marker.state = FrontState::at_surface;
+        const Vec3 beyond = marker.position + links.spacing() * marker.forward;
+        if (!links.inside(beyond)) marker.position = beyond;
+      }
+      any = any || marker.state == FrontState::advancing;
+      marker.vertex = k + 1;
+      crack.surface.vertices.push_back(marker.position);
+      crack.front.push_back(marker);
+    }
+    if (!any) continue;
+    Sweep first(crack, id, links, options);
+    for (int k = 0; k < kFirstMarkers; ++k) {
+      first.add_triangle(0, k + 1, (k + 1) % kFirstMarkers + 1);
+    }
+    seeded.area = first.area();
+    const double radius = 0.5 * options.mesh_size;
+    double reached = kFirstRadius * options.spacing;
+    while (reached < radius - 1e-9 * radius) {
+      const double step = std::min(options.spacing, radius - reached);
+      seeded.area += advance(crack, id, step, links, options);
+      reached += step;
+    }
+    mesh_disc(crack, plane.center, options);
+    return seeded;
+  }
+  return std::nullopt;
+}
+
+std::optional<Crack> inherit(const Crack& crack, std::int32_t id, CutLinks& links,
+                             const GrowthOptions&) {
+  Crack part = crack;
+  const TriangleMesh& surface = part.surface;
+  bool touches = false;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    links.cut({surface.corner(f, 0), surface.corner(f, 1), surface.corner(f, 2)}, id);
+    touches = touches || links.inside(surface.corner(f, 0));
+  }
+  if (!touches) return std::nullopt;
+  for (FrontMarker& m : part.front) {
+    if (m.state == FrontState::advancing && !links.inside(m.position)) {
+      m.state = FrontState::at_surface;
+    }
+  }
+  update_boundary(part);
+  return part;
+}
+
+}  // namespace fracbench::bem

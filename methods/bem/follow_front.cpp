@@ -1,0 +1,411 @@
+// The coarse sheet follows the markers of its front.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "geometry/measures.h"
+#include "methods/bem/front_loop.h"
+
+namespace fracbench::bem {
+namespace {
+
+// Shares of the mesh size.
+constexpr double kLongest = 1.4;
+constexpr double kShortest = 0.2;
+constexpr double kNewRow = 0.35;  ///< boundary vertices that move farther leave a row behind
+constexpr int kPasses = 6;
+
+constexpr std::int32_t kNone = -1;
+
+struct Edge {
+  std::int32_t a, b;         ///< a < b
+  std::int32_t left, right;  ///< faces; right: kNone on the boundary
+  double length;
+};
+
+Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
+
+class Follower {
+ public:
+  Follower(Crack& crack, double size)
+      : crack_(crack), mesh_(crack.sheet.mesh), front_(crack.front), size_(size) {}
+
+  void run() {
+    grow();
+    collapse_boundary();
+    tag_runs();
+    split_boundary();
+    split_edges();
+    collapse_edges();
+    compact();
+    update_boundary(crack_);
+    require_disc();
+  }
+
+ private:
+  void grow();
+  void collapse_boundary();
+  void tag_runs();
+  void split_boundary();
+  void split_edges();
+  void collapse_edges();
+  void compact();
+  void require_disc() const;
+
+  bool split_at(std::size_t marker, std::size_t from, std::size_t to);
+  bool may_collapse(std::int32_t gone, std::int32_t kept, std::size_t shared) const;
+  void collapse(std::int32_t gone, std::int32_t kept);
+  std::vector<Edge> edges() const;
+  std::size_t face_of_edge(std::int32_t from, std::int32_t to) const;
+  const Vec3& at(std::int32_t v) const { return mesh_.vertices[v]; }
+
+  Crack& crack_;
+  TriangleMesh& mesh_;
+  std::vector<FrontMarker>& front_;
+  double size_;
+};
+
+std::vector<Edge> Follower::edges() const {
+  std::vector<Edge> all;
+  all.reserve(mesh_.faces.size() * 3);
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t a = mesh_.faces[f][k], b = mesh_.faces[f][(k + 1) % 3];
+      all.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(f), kNone, 0});
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Edge& x, const Edge& y) {
+    return std::tie(x.a, x.b, x.left) < std::tie(y.a, y.b, y.left);
+  });
+  std::vector<Edge> merged;
+  merged.reserve(all.size() / 2 + 1);
+  for (const Edge& edge : all) {
+    if (!merged.empty() && merged.back().a == edge.a && merged.back().b == edge.b) {
+      merged.back().right = edge.left;
+    } else {
+      merged.push_back(edge);
+      merged.back().length = (at(edge.a) - at(edge.b)).norm();
+    }
+  }
+  return merged;
+}
+
+std::size_t Follower::face_of_edge(std::int32_t from, std::int32_t to) const {
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    const Face& face = mesh_.faces[f];
+    for (int k = 0; k < 3; ++k) {
+      if (face[k] == from && face[(k + 1) % 3] == to) return f;
+    }
+  }
+  throw MethodFailure(fmt::format("crack front: the sheet lost its boundary edge {} {}", from, to));
+}
+
+/// New rows of triangles in front of the boundary, and vertices moved where it moved little.
+void Follower::grow() {
+  const std::vector<std::size_t> coarse = coarse_markers(crack_);
+  const std::size_t m = coarse.size();
+  std::vector<std::uint8_t> leaves_row(m, 0);
+  std::vector<std::int32_t> place(mesh_.vertices.size(), kNone);
+  for (std::size_t c = 0; c < m; ++c) {
+    const FrontMarker& marker = front_[coarse[c]];
+    leaves_row[c] = (marker.position - at(marker.coarse)).norm() > kNewRow * size_;
+    place[marker.coarse] = static_cast<std::int32_t>(c);
+  }
+  // A vertex whose move would turn a triangle over leaves a row behind as well.
+  for (int pass = 0; pass < 3; ++pass) {
+    bool turned = false;
+    for (const Face& face : mesh_.faces) {
+      std::array<Vec3, 3> p;
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t c = place[face[k]];
+        const bool moves = c != kNone && !leaves_row[c];
+        p[k] = moves ? front_[coarse[c]].position : at(face[k]);
+      }
+      const Vec3 before = normal_of(at(face[0]), at(face[1]), at(face[2]));
+      const Vec3 after = normal_of(p[0], p[1], p[2]);
+      if (before.dot(after) > 0.3 * before.norm() * after.norm()) continue;
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t c = place[face[k]];
+        if (c == kNone || leaves_row[c] || front_[coarse[c]].position == at(face[k])) continue;
+        leaves_row[c] = 1;
+        turned = true;
+      }
+    }
+    if (!turned) break;
+  }
+  std::vector<std::int32_t> old(m), now(m);
+  for (std::size_t c = 0; c < m; ++c) {
+    FrontMarker& marker = front_[coarse[c]];
+    old[c] = now[c] = marker.coarse;
+    if (leaves_row[c]) {
+      now[c] = static_cast<std::int32_t>(mesh_.vertices.size());
+      mesh_.vertices.push_back(marker.position);
+      marker.coarse = now[c];
+    } else {
+      mesh_.vertices[marker.coarse] = marker.position;
+    }
+  }
+  for (std::size_t c = 0; c < m; ++c) {
+    const std::size_t next = (c + 1) % m;
+    const bool own = now[c] != old[c], other = now[next] != old[next];
+    if (own && other) {
+      // The shorter diagonal.
+      if ((at(old[c]) - at(now[next])).norm() < (at(old[next]) - at(now[c])).norm()) {
+        mesh_.faces.push_back({old[c], now[c], now[next]});
+        mesh_.faces.push_back({old[next], old[c], now[next]});
+      } else {
+        mesh_.faces.push_back({old[next], old[c], now[c]});
+        mesh_.faces.push_back({old[next], now[c], now[next]});
+      }
+    } else if (own) {
+      mesh_.faces.push_back({old[next], old[c], now[c]});
+    } else if (other) {
+      mesh_.faces.push_back({old[next], old[c], now[next]});
+    }
+  }
+}
+
+/// Whether `gone` may be drawn to `kept`, with which it shares an edge of `shared` triangles.
+bool Follower::may_collapse(std::int32_t gone, std::int32_t kept, std::size_t shared) const {
+  std::vector<std::int32_t> near_gone, near_kept;
+  for (const Face& face : mesh_.faces) {
+    const bool has_gone = std::find(face.begin(), face.end(), gone) != face.end();
+    const bool has_kept = std::find(face.begin(), face.end(), kept) != face.end();
+    if (has_gone) near_gone.insert(near_gone.end(), face.begin(), face.end());
+    if (has_kept) near_kept.insert(near_kept.end(), face.begin(), face.end());
+    if (!has_gone || has_kept) continue;
+    std::array<Vec3, 3> p;
+    for (int k = 0; k < 3; ++k) p[k] = at(face[k] == gone ? kept : face[k]);
+    const Vec3 before = normal_of(at(face[0]), at(face[1]), at(face[2]));
+    const Vec3 after = normal_of(p[0], p[1], p[2]);
+    if (after.norm() < 1e-3 * size_ * size_) return false;
+    if (before.dot(after) < 0.5 * before.norm() * after.norm()) return false;
+  }
+  for (auto* near : {&near_gone, &near_kept}) {
+    std::sort(near->begin(), near->end());
+    near->erase(std::unique(near->begin(), near->end()), near->end());
+  }
+  std::vector<std::int32_t> common;
+  std::set_intersection(near_gone.begin(), near_gone.end(), near_kept.begin(), near_kept.end(),
+                        std::back_inserter(common));
+  return common.size() == shared + 2;
+}
+
+void Follower::collapse(std::int32_t gone, std::int32_t kept) {
+  for (Face& face : mesh_.faces) std::replace(face.begin(), face.end(), gone, kept);
+  std::erase_if(mesh_.faces, [](const Face& face) {
+    return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+  });
+}
+
+/// Boundary edges that have become short; a run that advances keeps a vertex.
+void Follower::collapse_boundary() {
+  std::vector<std::size_t> coarse = coarse_markers(crack_);
+  for (std::size_t c = 0; c < coarse.size() && coarse.size() > 4;) {
+    const std::size_t m = coarse.size();
+    FrontMarker& a = front_[coarse[c]];
+    FrontMarker& b = front_[coarse[(c + 1) % m]];
+    const double length = (a.position - b.position).norm();
+    if (length >= kShortest * size_) {
+      ++c;
+      continue;
+    }
+    const Vec3 before = front_[coarse[(c + m - 1) % m]].position;
+    const Vec3 after = front_[coarse[(c + 2) % m]].position;
+    // Rather the vertex that stands closer to its other neighbour goes; the other where it cannot.
+    bool first = (a.position - before).norm() < (b.position - after).norm();
+    // A vertex that advances is not given up for one that has stopped: its run would lose it.
+    if (a.state != b.state) first = b.state == FrontState::advancing;
+    FrontMarker* gone = first ? &a : &b;
+    FrontMarker* kept = first ? &b : &a;
+    if (!may_collapse(gone->coarse, kept->coarse, 1)) {
+      std::swap(gone, kept);
+      if (a.state != b.state || !may_collapse(gone->coarse, kept->coarse, 1)) {
+        ++c;
+        continue;
+      }
+    }
+    collapse(gone->coarse, kept->coarse);
+    gone->coarse = kNone;
+    coarse = coarse_markers(crack_);
+    c = c > 0 ? c - 1 : 0;
+  }
+}
+
+/// Makes marker `marker`, between the coarse markers `from` and `to`, a vertex of the boundary.
+bool Follower::split_at(std::size_t marker, std::size_t from, std::size_t to) {
+  const std::int32_t a = front_[from].coarse, b = front_[to].coarse;
+  const Vec3& p = front_[marker].position;
+  const std::size_t f = face_of_edge(a, b);
+  std::int32_t apex = kNone;
+  for (const std::int32_t v : mesh_.faces[f]) {
+    if (v != a && v != b) apex = v;
+  }
+  const Vec3 normal = area_vector2(mesh_, f);
+  const auto agrees = [&](const Vec3& other) {
+    return other.norm() > 1e-3 * size_ * size_ &&
+           other.dot(normal) > 0.3 * other.norm() * normal.norm();
+  };
+  const auto added = static_cast<std::int32_t>(mesh_.vertices.size());
+  const Vec3 ear = normal_of(at(b), at(a), p);
+  const bool far = ear.norm() > kNewRow * size_ * (at(a) - at(b)).norm();
+  if (far && agrees(ear)) {
+    mesh_.faces.push_back({b, a, added});
+  } else if (agrees(normal_of(at(a), p, at(apex))) && agrees(normal_of(p, at(b), at(apex)))) {
+    mesh_.faces[f] = {a, added, apex};
+    mesh_.faces.push_back({added, b, apex});
+  } else {
+    return false;
+  }
+  mesh_.vertices.push_back(p);
+  front_[marker].coarse = added;
+  return true;
+}
+
+/// Every run that advances gets a vertex.
+void Follower::tag_runs() {
+  const std::size_t n = front_.size();
+  const std::vector<std::size_t> coarse = coarse_markers(crack_);
+  for (std::size_t c = 0; c < coarse.size(); ++c) {
+    const std::size_t from = coarse[c], to = coarse[(c + 1) % coarse.size()];
+    if (front_[from].state == FrontState::advancing) continue;
+    if (front_[to].state == FrontState::advancing) continue;
+    std::vector<std::size_t> moving;
+    for (std::size_t i = (from + 1) % n; i != to; i = (i + 1) % n) {
+      if (front_[i].state == FrontState::advancing) moving.push_back(i);
+    }
+    if (!moving.empty()) split_at(moving[moving.size() / 2], from, to);
+  }
+}
+
+void Follower::split_boundary() {
+  const std::size_t n = front_.size();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    bool any = false;
+    const std::vector<std::size_t> coarse = coarse_markers(crack_);
+    for (std::size_t c = 0; c < coarse.size(); ++c) {
+      const std::size_t from = coarse[c], to = coarse[(c + 1) % coarse.size()];
+      const Vec3& a = front_[from].position;
+      const Vec3& b = front_[to].position;
+      if ((a - b).norm() <= kLongest * size_) continue;
+      // The marker that halves the edge best.
+      double best = std::numeric_limits<double>::infinity();
+      std::size_t middle = n;
+      for (std::size_t i = (from + 1) % n; i != to; i = (i + 1) % n) {
+        const double off =
+            std::max((front_[i].position - a).norm(), (front_[i].position - b).norm());
+        if (off < best) {
+          best = off;
+          middle = i;
+        }
+      }
+      if (middle != n) any = split_at(middle, from, to) || any;
+    }
+    if (!any) break;
+  }
+}
+
+/// Halves the long edges inside the sheet, the longest first.
+void Follower::split_edges() {
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<Edge> all = edges();
+    std::erase_if(all, [&](const Edge& edge) {
+      return edge.right == kNone || edge.length <= kLongest * size_;
+    });
+    if (all.empty()) return;
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Edge& x, const Edge& y) { return x.length > y.length; });
+    std::vector<std::uint8_t> touched(mesh_.faces.size(), 0);
+    for (const Edge& edge : all) {
+      if (touched[edge.left] || touched[edge.right]) continue;
+      const auto middle = static_cast<std::int32_t>(mesh_.vertices.size());
+      mesh_.vertices.push_back(0.5 * (at(edge.a) + at(edge.b)));
+      for (const std::int32_t f : {edge.left, edge.right}) {
+        touched[f] = 1;
+        Face half = mesh_.faces[f];
+        std::replace(half.begin(), half.end(), edge.a, middle);
+        std::replace(mesh_.faces[f].begin(), mesh_.faces[f].end(), edge.b, middle);
+        mesh_.faces.push_back(half);
+      }
+    }
+  }
+}
+
+/// Draws short edges inside the sheet together; boundary vertices stay.
+void Follower::collapse_edges() {
+  std::vector<std::uint8_t> on_boundary(mesh_.vertices.size(), 0);
+  for (const FrontMarker& m : front_) {
+    if (m.coarse >= 0) on_boundary[m.coarse] = 1;
+  }
+  bool any = true;
+  for (int pass = 0; any && pass < kPasses; ++pass) {
+    any = false;
+    std::vector<std::uint8_t> touched(mesh_.vertices.size(), 0);
+    for (const Edge& edge : edges()) {
+      if (edge.right == kNone || edge.length >= kShortest * size_) continue;
+      if (on_boundary[edge.a] && on_boundary[edge.b]) continue;
+      if (touched[edge.a] || touched[edge.b]) continue;
+      const std::int32_t gone = on_boundary[edge.a] ? edge.b : edge.a;
+      const std::int32_t kept = gone == edge.a ? edge.b : edge.a;
+      if (!may_collapse(gone, kept, 2)) continue;
+      collapse(gone, kept);
+      touched[gone] = touched[kept] = 1;
+      any = true;
+    }
+  }
+}
+
+void Follower::compact() {
+  std::vector<std::int32_t> number(mesh_.vertices.size(), kNone);
+  for (const Face& face : mesh_.faces) {
+    for (const std::int32_t v : face) number[v] = 0;
+  }
+  std::int32_t count = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNone) continue;
+    mesh_.vertices[count] = mesh_.vertices[v];
+    number[v] = count++;
+  }
+  mesh_.vertices.resize(count);
+  for (Face& face : mesh_.faces) {
+    for (std::int32_t& v : face) v = number[v];
+  }
+  for (FrontMarker& m : front_) {
+    if (m.coarse >= 0) m.coarse = number[m.coarse];
+  }
+}
+
+/// The boundary is one loop, and that of the markers.
+void Follower::require_disc() const {
+  const std::vector<std::int32_t>& loop = crack_.sheet.boundary;
+  std::vector<std::int32_t> next(mesh_.vertices.size(), kNone);
+  for (std::size_t c = 0; c < loop.size(); ++c) {
+    if (loop[c] < 0 || next[loop[c]] != kNone) {
+      throw MethodFailure("crack front: the sheet's boundary is no simple loop");
+    }
+    next[loop[c]] = loop[(c + 1) % loop.size()];
+  }
+  std::size_t boundary_edges = 0;
+  for (const Edge& edge : edges()) {
+    if (edge.right != kNone) continue;
+    ++boundary_edges;
+    if (next[edge.a] != edge.b && next[edge.b] != edge.a) {
+      throw MethodFailure("crack front: the sheet has come apart");
+    }
+  }
+  if (boundary_edges != loop.size()) {
+    throw MethodFailure("crack front: the sheet has more than one boundary");
+  }
+}
+
+}  // namespace
+
+void follow_front(Crack& crack, const GrowthOptions& options) {
+  Follower(crack, options.mesh_size).run();
+}
+
+}  // namespace fracbench::bem

@@ -1,0 +1,182 @@
+#include "methods/bem/front_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/measures.h"
+
+namespace fracbench::bem {
+namespace {
+
+constexpr int kFewestCoarse = 6;
+constexpr double kSeedEdge = 0.6;  // of mesh_size: edges of the first fan
+
+/// A stretch of the front that advances: markers first, first + 1, ... (around the loop).
+struct Run {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+std::vector<Run> advancing_runs(const std::vector<FrontMarker>& front) {
+  const std::size_t n = front.size();
+  const auto advancing = [&](std::size_t i) { return front[i % n].state == FrontState::advancing; };
+  std::size_t start = 0;
+  while (start < n && advancing(start)) ++start;
+  if (start == n) return {{0, n}};
+  std::vector<Run> runs;
+  for (std::size_t i = start; i < start + n; ++i) {
+    if (!advancing(i)) continue;
+    if (!advancing(i + n - 1)) runs.push_back({i % n, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+struct Directions {
+  Vec3 forward, normal;
+};
+
+/// Directions of marker j of a run from the chord of the markers within `reach` on either side.
+Directions directions_in(const std::vector<FrontMarker>& front, const Run& run, std::size_t j,
+                         double reach) {
+  const std::size_t n = front.size();
+  const bool closed = run.count == n;
+  const auto at = [&](std::size_t k) -> const FrontMarker& { return front[(run.first + k) % n]; };
+  const FrontMarker& own = at(j);
+  Vec3 normal = own.normal;
+  const auto walk = [&](std::size_t step_back_or_on, std::size_t most) {
+    double length = 0;
+    std::size_t k = j;
+    for (std::size_t taken = 0; taken < most && length < reach; ++taken) {
+      const std::size_t next = (k + step_back_or_on) % n;
+      length += (at(next).position - at(k).position).norm();
+      k = next;
+      normal += at(k).normal;
+    }
+    return k;
+  };
+  std::size_t low = walk(n - 1, closed ? n / 4 : j);
+  std::size_t high = walk(1, closed ? n / 4 : run.count - 1 - j);
+  if (run.count < 3) {
+    low = n - 1;
+    high = run.count;
+  }
+  const Vec3 way = at(high).position - at(low).position;
+  const Vec3 upright = normal - normal.dot(way) / std::max(way.squaredNorm(), 1e-300) * way;
+  if (way.norm() > 0 && upright.norm() > 0.1 * normal.norm()) {
+    const Vec3 forward = way.cross(upright).normalized();
+    if (forward.dot(own.forward) > 0.3) return {forward, upright.normalized()};
+  }
+  return {own.forward, own.normal};
+}
+
+}  // namespace
+
+std::vector<std::size_t> coarse_markers(const Crack& crack) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < crack.front.size(); ++i) {
+    if (crack.front[i].coarse >= 0) indices.push_back(i);
+  }
+  return indices;
+}
+
+void update_boundary(Crack& crack) {
+  crack.sheet.boundary.clear();
+  crack.sheet.states.clear();
+  for (const FrontMarker& m : crack.front) {
+    if (m.coarse < 0) continue;
+    crack.sheet.boundary.push_back(m.coarse);
+    crack.sheet.states.push_back(m.state);
+  }
+}
+
+void mesh_disc(Crack& crack, const Vec3& center, const GrowthOptions& options) {
+  std::vector<FrontMarker>& front = crack.front;
+  const std::size_t n = front.size();
+  // The first vertex is where the front begins, so that the mouth's corners are kept.
+  const std::vector<Run> runs = advancing_runs(front);
+  const std::size_t start = runs.empty() ? 0 : (runs[0].first + n - 1) % n;
+  std::vector<double> along(n + 1, 0);
+  for (std::size_t k = 0; k < n; ++k) {
+    along[k + 1] =
+        along[k] + (front[(start + k + 1) % n].position - front[(start + k) % n].position).norm();
+  }
+  const int count = std::max(
+      kFewestCoarse, static_cast<int>(std::lround(along[n] / (kSeedEdge * options.mesh_size))));
+  TriangleMesh& mesh = crack.sheet.mesh;
+  mesh.vertices.assign(1, Vec3::Zero());
+  std::size_t k = 0;
+  for (int c = 0; c < count; ++c) {
+    const double target = along[n] * c / count;
+    while (k + 1 < n && std::abs(along[k + 1] - target) < std::abs(along[k] - target)) ++k;
+    FrontMarker& marker = front[(start + k) % n];
+    if (marker.coarse >= 0) continue;
+    marker.coarse = static_cast<std::int32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(marker.position);
+    mesh.vertices[0] += marker.position;
+  }
+  // The front's loop starts at the first vertex.
+  std::rotate(front.begin(), front.begin() + static_cast<std::ptrdiff_t>(start), front.end());
+  const auto ring = static_cast<std::int32_t>(mesh.vertices.size()) - 1;
+  mesh.vertices[0] /= ring;
+  for (std::int32_t c = 0; c < ring; ++c) mesh.faces.push_back({0, c + 1, (c + 1) % ring + 1});
+  const Vec3 normal = front[0].normal;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (area_vector2(mesh, f).dot(normal) <= 0) mesh.vertices[0] = center;
+  }
+  update_boundary(crack);
+}
+
+void steer(Crack& crack, std::span<const FrontMotion> motions, const GrowthOptions& options) {
+  std::vector<FrontMarker>& front = crack.front;
+  const std::size_t n = front.size();
+  const std::vector<std::size_t> coarse = coarse_markers(crack);
+  const std::size_t m = coarse.size();
+  const auto advancing = [&](std::size_t c) {
+    return front[coarse[c % m]].state == FrontState::advancing;
+  };
+  // Kink angles smoothed over the neighbours on the front.
+  std::vector<FrontMotion> smooth(motions.begin(), motions.end());
+  for (std::size_t c = 0; c < m; ++c) {
+    if (!advancing(c)) continue;
+    double sum = 2 * motions[c].angle, weight = 2;
+    for (const std::size_t other : {(c + m - 1) % m, (c + 1) % m}) {
+      if (!advancing(other)) continue;
+      sum += motions[other].angle;
+      weight += 1;
+    }
+    smooth[c].angle = sum / weight;
+  }
+  // Linear in arc length between the coarse vertices.
+  std::vector<double> angle(n, 0);
+  for (std::size_t c = 0; c < m; ++c) {
+    const std::size_t next = (c + 1) % m;
+    const FrontMotion& a = smooth[advancing(c) ? c : next];
+    const FrontMotion& b = smooth[advancing(next) ? next : c];
+    const std::size_t markers = (coarse[next] + n - coarse[c] - 1) % n + 1;
+    std::vector<double> along(markers + 1, 0);
+    for (std::size_t k = 0; k < markers; ++k) {
+      along[k + 1] =
+          along[k] +
+          (front[(coarse[c] + k + 1) % n].position - front[(coarse[c] + k) % n].position).norm();
+    }
+    for (std::size_t k = 0; k < markers; ++k) {
+      const double t = along[markers] > 0 ? along[k] / along[markers] : 0;
+      const std::size_t i = (coarse[c] + k) % n;
+      angle[i] = (1 - t) * a.angle + t * b.angle;
+      front[i].speed = (1 - t) * a.speed + t * b.speed;
+    }
+  }
+  const std::vector<FrontMarker> before = front;
+  for (const Run& run : advancing_runs(before)) {
+    for (std::size_t j = 0; j < run.count; ++j) {
+      const std::size_t i = (run.first + j) % n;
+      const Directions d = directions_in(before, run, j, 0.5 * options.mesh_size);
+      const double cosine = std::cos(angle[i]), sine = std::sin(angle[i]);
+      front[i].forward = cosine * d.forward + sine * d.normal;
+      front[i].normal = cosine * d.normal - sine * d.forward;
+    }
+  }
+}
+
+}  // namespace fracbench::bem

@@ -1,0 +1,193 @@
+#include "methods/bem/propagate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "methods/bem/growth_law.h"
+
+namespace fracbench::bem {
+namespace {
+
+FrontMotion motion_of(const StressIntensity& k, const Material& material) {
+  const double nu = material.poisson_ratio;
+  return {kink_angle(k, nu), crack_speed(effective_stress_intensity(k, nu), material)};
+}
+
+class Run {
+ public:
+  Run(CutLinks& links, const FractureModel& model, const PropagationOptions& options,
+      Context& context)
+      : links_(links), model_(model), options_(options), context_(context) {
+    growth_.mesh_size = options.mesh_size;
+    growth_.spacing = std::min(links.spacing(), options.mesh_size / 5);
+  }
+
+  void take(std::vector<Crack> inherited) {
+    for (const Crack& crack : inherited) {
+      const auto id = static_cast<std::int32_t>(result_.cracks.size());
+      if (auto part = inherit(crack, id, links_, growth_)) add(std::move(*part));
+    }
+  }
+
+  void start_cracks(const StrengthField& strength);
+  void step(double duration);
+  bool moves() const;
+  Propagation finish();
+
+  PropagationReport& report() { return result_.report; }
+
+ private:
+  void add(Crack crack) {
+    result_.cracks.push_back(std::move(crack));
+    stands_.push_back(0);
+  }
+  void steer_all();
+  std::vector<CrackSheet> sheets() const {
+    std::vector<CrackSheet> all;
+    for (const Crack& crack : result_.cracks) all.push_back(crack.sheet);
+    return all;
+  }
+
+  CutLinks& links_;
+  const FractureModel& model_;
+  const PropagationOptions& options_;
+  Context& context_;
+  GrowthOptions growth_;
+  Propagation result_;
+  std::vector<std::uint8_t> stands_;  ///< cracks that broke down
+};
+
+void Run::start_cracks(const StrengthField& strength) {
+  PropagationReport& report = result_.report;
+  const int left = options_.max_cracks - static_cast<int>(report.new_cracks);
+  if (left <= 0) return;
+  std::vector<Vec3> occupied;
+  for (const Crack& crack : result_.cracks) {
+    occupied.insert(occupied.end(), crack.surface.vertices.begin(), crack.surface.vertices.end());
+  }
+  InitiationOptions options;
+  options.max_cracks = left;
+  options.compressive_factor = options_.material.compressive_factor;
+  options.parity = options_.parity;
+  options.min_distance = options_.min_distance > 0 ? options_.min_distance : options_.mesh_size;
+  for (const CrackSeed& seed :
+       initiate(model_.surface_stress(sheets()), strength, occupied, options)) {
+    const auto id = static_cast<std::int32_t>(result_.cracks.size());
+    if (auto seeded = seed_crack(seed, id, links_, growth_)) {
+      add(std::move(seeded->crack));
+      report.area += seeded->area;
+      ++report.new_cracks;
+    } else {
+      ++report.failed_seeds;
+    }
+  }
+}
+
+void Run::steer_all() {
+  const auto intensities = model_.stress_intensity(sheets());
+  if (intensities.size() != result_.cracks.size()) {
+    throw MethodFailure(fmt::format("stress intensities of {} cracks, of {}", intensities.size(),
+                                    result_.cracks.size()));
+  }
+  for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
+    Crack& crack = result_.cracks[c];
+    std::vector<FrontMotion> motions;
+    for (const StressIntensity& k : intensities[c]) {
+      motions.push_back(motion_of(k, options_.material));
+    }
+    if (motions.size() != crack.sheet.boundary.size()) {
+      throw MethodFailure(
+          fmt::format("stress intensities at {} vertices of a crack's boundary of {}",
+                      motions.size(), crack.sheet.boundary.size()));
+    }
+    if (stands_[c]) motions.assign(motions.size(), FrontMotion{});
+    steer(crack, motions, growth_);
+  }
+}
+
+bool Run::moves() const {
+  for (const Crack& crack : result_.cracks) {
+    for (const FrontMarker& m : crack.front) {
+      if (m.state == FrontState::advancing && m.speed > 0) return true;
+    }
+  }
+  return false;
+}
+
+void Run::step(double duration) {
+  steer_all();
+  double fastest = 0;
+  for (const Crack& crack : result_.cracks) {
+    for (const FrontMarker& m : crack.front) {
+      if (m.state == FrontState::advancing) fastest = std::max(fastest, m.speed);
+    }
+  }
+  // All cracks advance together, in moves of a marker spacing, so that who meets whom does not
+  // depend on their order by more than that.
+  const int moves = static_cast<int>(std::ceil(fastest * duration / growth_.spacing - 1e-9));
+  for (int k = 0; k < moves; ++k) {
+    context_.stop_if_asked();
+    for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
+      if (stands_[c]) continue;
+      result_.report.area += advance(result_.cracks[c], static_cast<std::int32_t>(c),
+                                     duration / moves, links_, growth_);
+    }
+  }
+  for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
+    Crack& crack = result_.cracks[c];
+    if (stands_[c]) continue;
+    Crack before = crack;
+    try {
+      follow_front(crack, growth_);
+    } catch (const MethodFailure& failure) {
+      crack = std::move(before);
+      stands_[c] = 1;
+      result_.report.failures.push_back(fmt::format("crack {}: {}", c, failure.what()));
+    }
+  }
+  ++result_.report.steps;
+  result_.report.time += duration;
+}
+
+Propagation Run::finish() {
+  PropagationReport& report = result_.report;
+  for (const Crack& crack : result_.cracks) {
+    for (const FrontMarker& m : crack.front) {
+      if (m.state == FrontState::at_surface) ++report.at_surface;
+      if (m.state == FrontState::at_crack) ++report.at_crack;
+      if (m.state == FrontState::advancing) ++(m.speed > 0 ? report.advancing : report.arrested);
+    }
+  }
+  if (result_.cracks.empty()) {
+    report.end = PropagationEnd::no_crack;
+  } else if (report.advancing > 0) {
+    report.end = PropagationEnd::time_over;
+  } else {
+    report.end = report.arrested > 0 ? PropagationEnd::arrested : PropagationEnd::complete;
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+Propagation propagate(std::vector<Crack> inherited, CutLinks& links, const StrengthField& strength,
+                      const FractureModel& model, const PropagationOptions& options,
+                      Context& context) {
+  Run run(links, model, options, context);
+  run.take(std::move(inherited));
+  const double dt = options.mesh_size / rayleigh_speed(options.material);
+  const int steps = static_cast<int>(std::ceil(options.duration / dt - 1e-9));
+  for (int s = 0; s < steps; ++s) {
+    context.stop_if_asked();
+    context.progress.update("crack growth", static_cast<double>(s) / steps);
+    if (s == 0 || model.stress_changes) run.start_cracks(strength);
+    run.step(std::min(dt, options.duration - s * dt));
+    if (!run.moves()) break;
+  }
+  return run.finish();
+}
+
+}  // namespace fracbench::bem
