@@ -23,6 +23,7 @@ struct MethodInfo {
   bool retains_surface = true;     ///< fragments carry the original surface unchanged
   bool refracture = false;         ///< pieces may break again
   bool random = false;             ///< another seed gives other pieces
+  bool learns = false;             ///< prepare() needs LearningData
   double volume_tolerance = 1e-9;  ///< allowed |volume_ratio - 1|
   /// Digest of the sources that the method is built from, so that records of an edited method are
   /// not mistaken for its own. Filled in by the registry.
@@ -31,13 +32,19 @@ struct MethodInfo {
 
 /// One broken body to learn from.
 struct LearningExample {
-  Impact impact;
-  Fragments fragments;
+  Impact impact;        ///< that broke the target; two balls that strike at once give two impulses
+  Fragments fragments;  ///< at the end of the scene
+  /// Of the pieces that broke after it, in order of time and in the frame of the target: where the
+  /// other ball of a dual scene strikes later, its impulses are here.
+  std::vector<Impact> later_impacts = {};
 };
 
 /// What a learning method is given; empty for the others.
 struct LearningData {
-  std::vector<LearningExample> examples;
+  std::vector<LearningExample> examples;  ///< to train with; the test set is kept from methods
+  /// I_max: the largest magnitude among the impulses on the target in all collisions that were
+  /// made, the unbroken ones included, N s.
+  double max_impulse = 0;
 };
 
 /// A fracture method. Stateless; adding one is a folder below methods/ and a line in registry.cpp.

@@ -30,6 +30,7 @@ Json list_methods() {
                     {"retains_surface", info.retains_surface},
                     {"refracture", info.refracture},
                     {"random", info.random},
+                    {"learns", info.learns},
                     {"volume_tolerance", info.volume_tolerance},
                     {"options", to_json(method->options())}});
   }
