@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/context.h"
+#include "core/triangle_mesh.h"
+
+namespace fracbench::bem {
+
+/// What a computation without chance needs.
+class PlainContext {
+ public:
+  explicit PlainContext(int threads = 2) : context_{random_, timer_, progress_} {
+    context_.threads = threads;
+  }
+  Context& get() { return context_; }
+
+ private:
+  Random random_{1};
+  StageTimer timer_;
+  Progress progress_;
+  Context context_;
+};
+
+/// The unit cube [0, 1]^3 with `cells` x `cells` squares of two triangles on each side.
+TriangleMesh cube_surface(int cells);
+
+}  // namespace fracbench::bem
