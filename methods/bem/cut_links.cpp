@@ -29,7 +29,7 @@ constexpr double kBytesPerVoxel = 16;
 const Vec3 kOffset(0.06180339887, 0.04142135624, 0.07320508076);
 
 // The voxels must hold the body's volume to this share, and be in one part but for this share.
-constexpr double kVolumeTolerance = 0.1;
+constexpr double kVolumeTolerance = 0.4;
 constexpr double kChipShare = 0.01;
 constexpr double kFiner = 0.75;  // factor from one spacing that is tried to the next
 constexpr double kMostVoxelsForAdvice = 1.5e7;

@@ -40,6 +40,21 @@ class CutLinks {
   /// outside.
   VoxelGrid<std::int32_t> components() const;
 
+  /// Calls visit(a, b, crack) for every cut link between two voxels of the body (indices into the
+  /// grid of `components`, a < b), in ascending order.
+  template <typename Visit>
+  void for_each_cut(const Visit& visit) const {
+    for (std::size_t i = 0; i < inside_.values.size(); ++i) {
+      if (!inside_.values[i]) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t next = i + stride_[axis];
+        if (links_[axis][i] < 0 || !inside_.values[next]) continue;
+        visit(static_cast<std::int32_t>(i), static_cast<std::int32_t>(next),
+              std::int32_t{links_[axis][i]});
+      }
+    }
+  }
+
   /// Pairs of voxels (indices into the grid of `components`) whose link the triangle crosses, both
   /// in the body.
   std::vector<std::array<std::int32_t, 2>> crossed_by(const std::array<Vec3, 3>& triangle) const;
