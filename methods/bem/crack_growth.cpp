@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/measures.h"
 #include "methods/bem/front_loop.h"
 
 namespace fracbench::bem {
@@ -25,12 +26,14 @@ struct Stop {
   FrontState state;
 };
 
-/// Goes straight from `from`, a point in the body, for `length`; empty where nothing is in the way.
-std::optional<Stop> stop_on_way(const Vec3& from, const Vec3& direction, double length,
-                                std::int32_t id, const CutLinks& links) {
+/// Where a marker ends that goes straight on from `from`, a point in the body, for `length`; empty
+/// where nothing is in the way.
+std::optional<Stop> stop_on_way(const FrontMarker& marker, const Vec3& direction, double length,
+                                bool forward, std::int32_t id, const CrackSpace& space) {
+  const CutLinks& links = space.links;
   const double voxel = links.spacing();
   const int steps = std::max(1, static_cast<int>(std::ceil(length / (kMarch * voxel) - 1e-9)));
-  const auto at = [&](double s) -> Vec3 { return from + s * direction; };
+  const auto at = [&](double s) -> Vec3 { return marker.position + s * direction; };
   double before = 0;
   for (int k = 1; k <= steps; ++k) {
     const double here = length * k / steps;
@@ -49,7 +52,12 @@ std::optional<Stop> stop_on_way(const Vec3& from, const Vec3& direction, double 
     }
     before = here;
   }
-  return std::nullopt;
+  const auto trace =
+      space.traces.in_way(marker.position, direction, length, marker.normal, id, forward);
+  if (!trace) return std::nullopt;
+  // On along the other surface.
+  const Vec3 along = direction - direction.dot(trace->normal) * trace->normal;
+  return Stop{trace->position + kCrackOvershoot * voxel * along.normalized(), FrontState::at_crack};
 }
 
 /// Share of a triangle that lies in the body, from the centres of 64 equal parts where it crosses
@@ -74,8 +82,8 @@ double share_inside(const Vec3& a, const Vec3& b, const Vec3& c, const CutLinks&
 /// The front during one substep, and the surface that it sweeps.
 class Sweep {
  public:
-  Sweep(Crack& crack, std::int32_t id, CutLinks& links, const GrowthOptions& options)
-      : crack_(crack), id_(id), links_(links), options_(options) {}
+  Sweep(Crack& crack, std::int32_t id, CrackSpace& space, const GrowthOptions& options)
+      : crack_(crack), id_(id), space_(space), options_(options) {}
 
   void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c);
   void merge_close_markers();
@@ -83,9 +91,12 @@ class Sweep {
   double area() const { return area_; }
 
  private:
-  std::int32_t add_vertex(const Vec3& position) {
-    crack_.surface.vertices.push_back(position);
-    return static_cast<std::int32_t>(crack_.surface.vertices.size()) - 1;
+  void add_vertex(FrontMarker& marker) {
+    marker.vertex = static_cast<std::int32_t>(crack_.surface.vertices.size());
+    crack_.surface.vertices.push_back(marker.position);
+    if (space_.links.inside(marker.position)) {
+      space_.traces.add({marker.position, marker.normal, id_});
+    }
   }
   /// New markers between a and its successor b, in order.
   std::vector<FrontMarker> between(const FrontMarker& a, const FrontMarker& b) const;
@@ -94,7 +105,7 @@ class Sweep {
 
   Crack& crack_;
   std::int32_t id_;
-  CutLinks& links_;
+  CrackSpace& space_;
   const GrowthOptions& options_;
   double area_ = 0;
 };
@@ -103,8 +114,9 @@ void Sweep::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
   if (a == b || b == c || c == a) return;
   const auto& v = crack_.surface.vertices;
   crack_.surface.faces.push_back({a, b, c});
-  links_.cut({v[a], v[b], v[c]}, id_);
-  area_ += 0.5 * (v[b] - v[a]).cross(v[c] - v[a]).norm() * share_inside(v[a], v[b], v[c], links_);
+  space_.links.cut({v[a], v[b], v[c]}, id_);
+  area_ +=
+      0.5 * (v[b] - v[a]).cross(v[c] - v[a]).norm() * share_inside(v[a], v[b], v[c], space_.links);
 }
 
 /// Where the front converges, markers vanish; the surface between is filled.
@@ -136,14 +148,16 @@ void Sweep::merge_close_markers() {
 std::vector<FrontMarker> Sweep::beside(const FrontMarker& end, const FrontMarker& stopped) const {
   const Vec3 apart = stopped.position - end.position;
   const double distance = apart.norm();
-  if (distance < 1.2 * options_.spacing) return {};
+  // One that stopped ahead is reached by going on.
+  if (distance < 1.2 * options_.spacing || apart.dot(end.forward) > 0.3 * distance) return {};
   Vec3 sideways = apart - apart.dot(end.forward) * end.forward;
+  sideways -= sideways.dot(end.normal) * end.normal;
   if (sideways.norm() < 0.1 * distance) return {};
   sideways.normalize();
   FrontMarker marker = end;
   marker.coarse = -1;
   if (const auto stop =
-          stop_on_way(end.position, sideways, kReach * links_.spacing(), id_, links_)) {
+          stop_on_way(end, sideways, kReach * space_.links.spacing(), false, id_, space_)) {
     if ((stop->position - stopped.position).norm() < options_.spacing) return {};
     marker.position = stop->position;
     marker.state = stop->state;
@@ -176,7 +190,7 @@ std::vector<FrontMarker> Sweep::between(const FrontMarker& a, const FrontMarker&
     const Vec3 normal = (1 - t) * a.normal + t * b.normal;
     const Vec3 upright = normal - normal.dot(m.forward) * m.forward;
     if (upright.norm() > 0.1) m.normal = upright.normalized();
-    if (!links_.inside(m.position)) m.state = FrontState::at_surface;
+    if (!space_.links.inside(m.position)) m.state = FrontState::at_surface;
   }
   return markers;
 }
@@ -204,7 +218,7 @@ void Sweep::move(double duration) {
   for (FrontMarker& m : moved) {
     const double length = m.speed * duration;
     if (m.state != FrontState::advancing || !(length > 0)) continue;
-    if (const auto stop = stop_on_way(m.position, m.forward, length, id_, links_)) {
+    if (const auto stop = stop_on_way(m, m.forward, length, true, id_, space_)) {
       m.position = stop->position;
       m.state = stop->state;
     } else {
@@ -222,7 +236,7 @@ void Sweep::move(double duration) {
     a.position = b.position = 0.5 * (a.position + b.position);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (moved[i].position != old[i].position) moved[i].vertex = add_vertex(moved[i].position);
+    if (moved[i].position != old[i].position) add_vertex(moved[i]);
   }
   std::vector<FrontMarker> front;
   front.reserve(count + count / 4);
@@ -233,7 +247,7 @@ void Sweep::move(double duration) {
     front.push_back(moved[i]);
     chain.assign(1, moved[i].vertex);
     for (FrontMarker& m : inserted) {
-      m.vertex = add_vertex(m.position);
+      add_vertex(m);
       chain.push_back(m.vertex);
       front.push_back(m);
     }
@@ -267,19 +281,19 @@ bool advances(const Crack& crack) {
                      [](const FrontMarker& m) { return m.state == FrontState::advancing; });
 }
 
-double advance(Crack& crack, std::int32_t id, double duration, CutLinks& links,
+double advance(Crack& crack, std::int32_t id, double duration, CrackSpace& space,
                const GrowthOptions& options) {
-  Sweep sweep(crack, id, links, options);
+  Sweep sweep(crack, id, space, options);
   sweep.merge_close_markers();
   sweep.move(duration);
   return sweep.area();
 }
 
-std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, CutLinks& links,
+std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, CrackSpace& space,
                                       const GrowthOptions& options) {
   // The element's centre may lie just outside the voxels: look a little deeper.
   for (const double depth : {0.0, 1.0, 2.0, 3.0}) {
-    const SeedPlane plane = seed_plane(seed, seed.surface_normal, depth * links.spacing());
+    const SeedPlane plane = seed_plane(seed, seed.surface_normal, depth * space.links.spacing());
     SeededCrack seeded;
     Crack& crack = seeded.crack;
     crack.surface.vertices.push_back(plane.center);
@@ -291,10 +305,10 @@ std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, Cu
       marker.normal = seed.normal;
       marker.speed = 1;
       marker.position = plane.center + kFirstRadius * options.spacing * marker.forward;
-      if (!links.inside(marker.position)) {
+      if (!space.links.inside(marker.position)) {
         marker.state = FrontState::at_surface;
-        const Vec3 beyond = marker.position + links.spacing() * marker.forward;
-        if (!links.inside(beyond)) marker.position = beyond;
+        const Vec3 beyond = marker.position + space.links.spacing() * marker.forward;
+        if (!space.links.inside(beyond)) marker.position = beyond;
       }
       any = any || marker.state == FrontState::advancing;
       marker.vertex = k + 1;
@@ -302,7 +316,7 @@ std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, Cu
       crack.front.push_back(marker);
     }
     if (!any) continue;
-    Sweep first(crack, id, links, options);
+    Sweep first(crack, id, space, options);
     for (int k = 0; k < kFirstMarkers; ++k) {
       first.add_triangle(0, k + 1, (k + 1) % kFirstMarkers + 1);
     }
@@ -311,7 +325,7 @@ std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, Cu
     double reached = kFirstRadius * options.spacing;
     while (reached < radius - 1e-9 * radius) {
       const double step = std::min(options.spacing, radius - reached);
-      seeded.area += advance(crack, id, step, links, options);
+      seeded.area += advance(crack, id, step, space, options);
       reached += step;
     }
     mesh_disc(crack, plane.center, options);
@@ -320,18 +334,23 @@ std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, Cu
   return std::nullopt;
 }
 
-std::optional<Crack> inherit(const Crack& crack, std::int32_t id, CutLinks& links,
+std::optional<Crack> inherit(const Crack& crack, std::int32_t id, CrackSpace& space,
                              const GrowthOptions&) {
   Crack part = crack;
   const TriangleMesh& surface = part.surface;
   bool touches = false;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    links.cut({surface.corner(f, 0), surface.corner(f, 1), surface.corner(f, 2)}, id);
-    touches = touches || links.inside(surface.corner(f, 0));
+    space.links.cut({surface.corner(f, 0), surface.corner(f, 1), surface.corner(f, 2)}, id);
+    const Vec3 normal = area_vector2(surface, f).normalized();
+    for (int k = 0; k < 3; ++k) {
+      if (!space.links.inside(surface.corner(f, k))) continue;
+      touches = true;
+      space.traces.add({surface.corner(f, k), normal, id});
+    }
   }
   if (!touches) return std::nullopt;
   for (FrontMarker& m : part.front) {
-    if (m.state == FrontState::advancing && !links.inside(m.position)) {
+    if (m.state == FrontState::advancing && !space.links.inside(m.position)) {
       m.state = FrontState::at_surface;
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "geometry/measures.h"
 
@@ -30,6 +32,42 @@ std::vector<Run> advancing_runs(const std::vector<FrontMarker>& front) {
     ++runs.back().count;
   }
   return runs;
+}
+
+/// Triangulates the coarse boundary, vertices 1, 2, ... of the sheet, without the hub in vertex 0:
+/// always the best-shaped corner that holds no other vertex is cut off (ear clipping).
+void clip_ears(Crack& crack, const Vec3& normal) {
+  TriangleMesh& mesh = crack.sheet.mesh;
+  mesh.vertices.erase(mesh.vertices.begin());
+  for (FrontMarker& m : crack.front) m.coarse -= m.coarse >= 0;
+  mesh.faces.clear();
+  std::vector<std::int32_t> rest(mesh.vertices.size());
+  std::iota(rest.begin(), rest.end(), 0);
+  const auto turn = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    const auto& v = mesh.vertices;
+    return (v[b] - v[a]).cross(v[c] - v[a]).dot(normal);
+  };
+  while (rest.size() > 3) {
+    const std::size_t n = rest.size();
+    std::size_t best = 0;
+    double best_quality = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::int32_t a = rest[(k + n - 1) % n], b = rest[k], c = rest[(k + 1) % n];
+      const auto& v = mesh.vertices;
+      double quality = turn(a, b, c) / ((v[a] - v[b]).squaredNorm() + (v[b] - v[c]).squaredNorm() +
+                                        (v[c] - v[a]).squaredNorm());
+      for (const std::int32_t other : rest) {
+        if (other == a || other == b || other == c) continue;
+        if (turn(a, b, other) > 0 && turn(b, c, other) > 0 && turn(c, a, other) > 0) quality -= 2;
+      }
+      if (quality <= best_quality) continue;
+      best_quality = quality;
+      best = k;
+    }
+    mesh.faces.push_back({rest[(best + n - 1) % n], rest[best], rest[(best + 1) % n]});
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  mesh.faces.push_back({rest[0], rest[1], rest[2]});
 }
 
 struct Directions {
@@ -121,9 +159,14 @@ void mesh_disc(Crack& crack, const Vec3& center, const GrowthOptions& options) {
   mesh.vertices[0] /= ring;
   for (std::int32_t c = 0; c < ring; ++c) mesh.faces.push_back({0, c + 1, (c + 1) % ring + 1});
   const Vec3 normal = front[0].normal;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (area_vector2(mesh, f).dot(normal) <= 0) mesh.vertices[0] = center;
-  }
+  const auto upright = [&] {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      if (area_vector2(mesh, f).dot(normal) <= 0) return false;
+    }
+    return true;
+  };
+  if (!upright()) mesh.vertices[0] = center;
+  if (!upright()) clip_ears(crack, normal);
   update_boundary(crack);
 }
 
@@ -153,6 +196,8 @@ void steer(Crack& crack, std::span<const FrontMotion> motions, const GrowthOptio
     const std::size_t next = (c + 1) % m;
     const FrontMotion& a = smooth[advancing(c) ? c : next];
     const FrontMotion& b = smooth[advancing(next) ? next : c];
+    // Between two that do not advance the markers go on as before.
+    if (!advancing(c) && !advancing(next)) continue;
     const std::size_t markers = (coarse[next] + n - coarse[c] - 1) % n + 1;
     std::vector<double> along(markers + 1, 0);
     for (std::size_t k = 0; k < markers; ++k) {
@@ -172,6 +217,7 @@ void steer(Crack& crack, std::span<const FrontMotion> motions, const GrowthOptio
     for (std::size_t j = 0; j < run.count; ++j) {
       const std::size_t i = (run.first + j) % n;
       const Directions d = directions_in(before, run, j, 0.5 * options.mesh_size);
+      if (angle[i] != 0) front[i].turn = angle[i];
       const double cosine = std::cos(angle[i]), sine = std::sin(angle[i]);
       front[i].forward = cosine * d.forward + sine * d.normal;
       front[i].normal = cosine * d.normal - sine * d.forward;

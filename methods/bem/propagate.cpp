@@ -11,16 +11,23 @@
 namespace fracbench::bem {
 namespace {
 
-FrontMotion motion_of(const StressIntensity& k, const Material& material) {
-  const double nu = material.poisson_ratio;
-  return {kink_angle(k, nu), crack_speed(effective_stress_intensity(k, nu), material)};
+FrontMotion motion_of(const StressIntensity& k, double last_turn,
+                      const PropagationOptions& options) {
+  const double nu = options.material.poisson_ratio;
+  FrontMotion motion;
+  motion.angle = options.kink_share * kink_angle(k, nu);
+  motion.speed = crack_speed(effective_stress_intensity(k, nu), options.material);
+  // Where the faces are pressed together in every plane, kinks would only turn the front to and
+  // fro: it goes straight on.
+  if (motion.angle * last_turn < 0) motion.angle *= k.mode_1 > 0 ? 0.5 : 0;
+  return motion;
 }
 
 class Run {
  public:
   Run(CutLinks& links, const FractureModel& model, const PropagationOptions& options,
       Context& context)
-      : links_(links), model_(model), options_(options), context_(context) {
+      : space_(links), model_(model), options_(options), context_(context) {
     growth_.mesh_size = options.mesh_size;
     growth_.spacing = std::min(links.spacing(), options.mesh_size / 5);
   }
@@ -28,7 +35,7 @@ class Run {
   void take(std::vector<Crack> inherited) {
     for (const Crack& crack : inherited) {
       const auto id = static_cast<std::int32_t>(result_.cracks.size());
-      if (auto part = inherit(crack, id, links_, growth_)) add(std::move(*part));
+      if (auto part = inherit(crack, id, space_, growth_)) add(std::move(*part));
     }
   }
 
@@ -51,7 +58,7 @@ class Run {
     return all;
   }
 
-  CutLinks& links_;
+  CrackSpace space_;
   const FractureModel& model_;
   const PropagationOptions& options_;
   Context& context_;
@@ -76,7 +83,7 @@ void Run::start_cracks(const StrengthField& strength) {
   for (const CrackSeed& seed :
        initiate(model_.surface_stress(sheets()), strength, occupied, options)) {
     const auto id = static_cast<std::int32_t>(result_.cracks.size());
-    if (auto seeded = seed_crack(seed, id, links_, growth_)) {
+    if (auto seeded = seed_crack(seed, id, space_, growth_)) {
       add(std::move(seeded->crack));
       report.area += seeded->area;
       ++report.new_cracks;
@@ -95,13 +102,14 @@ void Run::steer_all() {
   for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
     Crack& crack = result_.cracks[c];
     std::vector<FrontMotion> motions;
-    for (const StressIntensity& k : intensities[c]) {
-      motions.push_back(motion_of(k, options_.material));
-    }
-    if (motions.size() != crack.sheet.boundary.size()) {
+    if (intensities[c].size() != crack.sheet.boundary.size()) {
       throw MethodFailure(
           fmt::format("stress intensities at {} vertices of a crack's boundary of {}",
-                      motions.size(), crack.sheet.boundary.size()));
+                      intensities[c].size(), crack.sheet.boundary.size()));
+    }
+    for (const FrontMarker& marker : crack.front) {
+      if (marker.coarse < 0) continue;
+      motions.push_back(motion_of(intensities[c][motions.size()], marker.turn, options_));
     }
     if (stands_[c]) motions.assign(motions.size(), FrontMotion{});
     steer(crack, motions, growth_);
@@ -133,7 +141,7 @@ void Run::step(double duration) {
     for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
       if (stands_[c]) continue;
       result_.report.area += advance(result_.cracks[c], static_cast<std::int32_t>(c),
-                                     duration / moves, links_, growth_);
+                                     duration / moves, space_, growth_);
     }
   }
   for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
