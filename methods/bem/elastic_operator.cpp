@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "methods/bem/galerkin_integrals.h"
@@ -194,39 +195,44 @@ Eigen::VectorXd apply_adjoint_double_layer(const BoundaryElements& source,
   }
   const double nu = material.poisson_ratio;
   const double laplace = 1 / (4 * std::numbers::pi);
-  // mu / (2 pi) ... of U: 2 mu U = ((3 - 4 nu) G + R) / (8 pi (1 - nu)).
+  // 2 mu U = ((3 - 4 nu) G + R) / (8 pi (1 - nu)).
   const double kelvin = 1 / (8 * std::numbers::pi * (1 - nu));
 
-  // Per loaded and target triangle: what the traction gives to the target's curls and hats.
+  // Per target triangle: what the tractions give to its curls and to its hat functions. Strips of
+  // loaded triangles, as in the assembly.
   struct Share {
-    Vec3 curl;
-    std::array<Vec3, 3> hats;
+    Vec3 curl = Vec3::Zero();
+    std::array<Vec3, 3> hats = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   };
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(target.unknowns()));
   std::vector<Share> shares(target.size());
-  for (std::size_t begin = 0; begin < target.size(); begin += 256) {
+  std::vector<std::int32_t> all(target.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<std::vector<PairIntegrals>> rows(kStrip);
+  for (std::size_t begin = 0; begin < loaded.size(); begin += kStrip) {
     context.stop_if_asked();
-    const std::size_t end = std::min(begin + 256, target.size());
-    parallel_for(end - begin, context.threads, [&](std::size_t offset) {
-      const std::size_t triangle = begin + offset;
-      PairIntegrator integrator(true);
-      Share share = {Vec3::Zero(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
-      const auto own = static_cast<std::int32_t>(triangle);
-      for (const std::int32_t k : loaded) {
-        PairIntegrals pair;
-        integrator.integrate(source, k, target, {&own, 1}, {&pair, 1});
-        const Vec3 t = tractions.col(k);
-        const auto& v = pair.values;
-        const Vec3 projected(v[0] * t.x() + v[3] * t.y() + v[4] * t.z(),
-                             v[3] * t.x() + v[1] * t.y() + v[5] * t.z(),
-                             v[4] * t.x() + v[5] * t.y() + v[2] * t.z());
-        const double g = pair.inverse_distance();
-        share.curl += (kelvin * (3 - 4 * nu) - laplace) * g * t + kelvin * projected;
-        for (int b = 0; b < 3; ++b) share.hats[b] += laplace * v[6 + b] * t;
-      }
-      shares[triangle] = share;
+    const std::size_t count = std::min(kStrip, loaded.size() - begin);
+    parallel_for(count, context.threads, [&](std::size_t k) {
+      rows[k].resize(target.size());
+      PairIntegrator(true).integrate(source, loaded[begin + k], target, all, rows[k]);
     });
+    parallel_for(
+        target.size(), context.threads,
+        [&](std::size_t triangle) {
+          Share& share = shares[triangle];
+          for (std::size_t k = 0; k < count; ++k) {
+            const Vec3 t = tractions.col(loaded[begin + k]);
+            const auto& v = rows[k][triangle].values;
+            const Vec3 projected(v[0] * t.x() + v[3] * t.y() + v[4] * t.z(),
+                                 v[3] * t.x() + v[1] * t.y() + v[5] * t.z(),
+                                 v[4] * t.x() + v[5] * t.y() + v[2] * t.z());
+            const double g = rows[k][triangle].inverse_distance();
+            share.curl += (kelvin * (3 - 4 * nu) - laplace) * g * t + kelvin * projected;
+            for (int b = 0; b < 3; ++b) share.hats[b] += laplace * v[6 + b] * t;
+          }
+        },
+        64);
   }
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(target.unknowns()));
   for (std::size_t triangle = 0; triangle < target.size(); ++triangle) {
     const Share& share = shares[triangle];
     for (int b = 0; b < 3; ++b) {

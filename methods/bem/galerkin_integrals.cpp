@@ -8,13 +8,13 @@ namespace fracbench::bem {
 namespace {
 
 // Distance of the centroids over the sum of the radii from which a rule is good enough: relative
-// errors of about 1e-6.
-constexpr double kFarRatio = 5.0;     // 3 points
+// errors below 1e-5.
+constexpr double kFarRatio = 8.0;     // 3 points
 constexpr double kMiddleRatio = 2.2;  // 6 points
 constexpr double kNearRatio = 1.2;    // 12 points; nearer: cut
 // How often each triangle of a pair is cut at most. Pairs that touch without sharing a corner end
 // here, with an error of about 4^-depth.
-constexpr int kMostCuts = 4;
+constexpr int kMostCuts = 6;
 
 // Turns corners so that those shared come first, in the same order in both. Returns how many.
 int bring_shared_first(const Corners& test, const Corners& trial, std::array<int, 3>& test_order,

@@ -6,6 +6,8 @@ namespace fracbench::bem {
 namespace {
 
 constexpr int kMostPoints = 12;
+// Added to squared distances, m^2: points of two crossing triangles that meet count as nothing.
+constexpr double kTiny = 1e-100;
 
 // Eight numbers side by side. Every operation is elementwise, so that the results are the same bits
 // with any vector instructions.
@@ -60,7 +62,7 @@ __attribute__((always_inline)) inline void sum_batch(const PairBatch& batch,
       const Lanes x = test_points[p][0] - trial_points[q][0];
       const Lanes y = test_points[p][1] - trial_points[q][1];
       const Lanes z = test_points[p][2] - trial_points[q][2];
-      const Lanes squared = x * x + y * y + z * z;
+      const Lanes squared = x * x + y * y + z * z + kTiny;
       Lanes cubed;
       square_root(squared, cubed);
       cubed *= squared;

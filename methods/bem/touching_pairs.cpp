@@ -1,5 +1,6 @@
 #include "methods/bem/touching_pairs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -8,11 +9,24 @@
 namespace fracbench::bem {
 namespace {
 
+// Points in each direction, for triangles of ordinary shape and for slender ones (whose smallest
+// height is below kSlender times the longest side).
 constexpr int kEdgePoints = 10;
+constexpr int kEdgePointsSlender = 24;
 constexpr int kVertexPoints = 7;
+constexpr int kVertexPointsSlender = 12;
+constexpr double kSlender = 0.35;
 
 double doubled_area(const Corners& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+}
+
+bool slender(const Corners& corners) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).squaredNorm());
+  }
+  return doubled_area(corners) < kSlender * longest;
 }
 
 // Adds weight * r r^T / |r|^3 and returns weight * n . r / |r|^3.
@@ -112,7 +126,9 @@ PairIntegrals coincident_pair(const Corners& corners) {
 }
 
 PairIntegrals edge_pair(const Corners& test, const Corners& trial, const Vec3& normal) {
-  static const std::vector<EdgePoint> rule = make_edge_points(kEdgePoints);
+  static const std::vector<EdgePoint> ordinary = make_edge_points(kEdgePoints);
+  static const std::vector<EdgePoint> many = make_edge_points(kEdgePointsSlender);
+  const std::vector<EdgePoint>& rule = slender(test) || slender(trial) ? many : ordinary;
   const Vec3 shared = test[1] - test[0];
   const Vec3 a = test[2] - test[0];
   const Vec3 b = trial[2] - trial[0];
@@ -136,7 +152,9 @@ PairIntegrals edge_pair(const Corners& test, const Corners& trial, const Vec3& n
 // x = xi X and y = xi ratio Y with X and Y on the sides opposite the shared corner, and the other
 // way round: the integral over xi is elementary.
 PairIntegrals vertex_pair(const Corners& test, const Corners& trial, const Vec3& normal) {
-  static const std::vector<VertexPoint> rule = make_vertex_points(kVertexPoints);
+  static const std::vector<VertexPoint> ordinary = make_vertex_points(kVertexPoints);
+  static const std::vector<VertexPoint> many = make_vertex_points(kVertexPointsSlender);
+  const std::vector<VertexPoint>& rule = slender(test) || slender(trial) ? many : ordinary;
   const Vec3 a = test[1] - test[0];
   const Vec3 a_side = test[2] - test[1];
   const Vec3 b = trial[1] - trial[0];
