@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "core/context.h"
+#include "core/material.h"
+#include "methods/bem/boundary_elements.h"
+
+namespace fracbench::bem {
+
+/// What an elastic body of so many triangles takes, predicted from measurements on one core of the
+/// project's reference machine.
+struct ElasticCost {
+  std::uint64_t bytes = 0;      ///< at the peak
+  double assembly_seconds = 0;  ///< on one thread; grows as triangles^2
+  double factor_seconds = 0;    ///< on one thread; grows as triangles^3
+  double seconds(int threads) const { return (assembly_seconds + factor_seconds) / threads; }
+};
+
+/// For a closed surface of `triangles` triangles.
+ElasticCost predict_cost(std::size_t triangles);
+
+/// An elastic body free in space, ready to answer to any load on its surface: the hypersingular
+/// operator D of its surface, factorised once. Rigid motions, which D leaves free, are held by
+/// D + alpha Q Q^T with the six orthonormal rigid motions Q and alpha = tr(D) / (unknowns).
+class ElasticBody {
+ public:
+  /// `mesh`: closed, outward oriented. Throws InputError where it is not closed, has triangles
+  /// without area, the material is impossible (check_elastic_material) or the matrix does not fit
+  /// into the memory that is available; MethodFailure where the factorisation fails. Stages of
+  /// context.timer: assemble, factorise.
+  ElasticBody(const TriangleMesh& mesh, const Material& material, Context& context);
+
+  const BoundaryElements& elements() const { return elements_; }
+  const Material& material() const { return material_; }
+  /// Orthonormal rigid motions, unknowns x 6.
+  const Eigen::MatrixXd& rigid_motions() const { return rigid_; }
+
+  /// Displacements (m, three for each vertex) under tractions (Pa, 3 x triangles) that are in
+  /// balance (what is not is left out); without rigid motion.
+  Eigen::VectorXd displacements(const Eigen::Matrix3Xd& tractions, const Context& context) const;
+
+  /// Replaces B by A^-1 B for A = D + alpha Q Q^T = L L^T; rows of B: unknowns.
+  void solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const;
+  /// Replaces B by L^-1 B, so that B^T A^-1 B is its product with itself.
+  void solve_lower_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const;
+
+ private:
+  BoundaryElements elements_;
+  Material material_;
+  Eigen::MatrixXd rigid_;
+  Eigen::MatrixXd factor_;  ///< L in the lower triangle; above it: not used
+};
+
+}  // namespace fracbench::bem
