@@ -13,6 +13,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "harness/build_info.h"
+#include "harness/catalog.h"
+#include "harness/workers/serve_cells.h"
 
 namespace {
 
@@ -81,6 +83,8 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
 
 int main(int argc, char** argv) {
   using namespace fracbench;
+  // What 'run' starts this program with; nobody else needs it.
+  if (argc == 2 && std::string_view(argv[1]) == "worker") return serve_cells(built_in_catalog());
   const Interrupt interrupt;
   try {
     const ExitCode code = run_program(argc, argv, interrupt.token());

@@ -6,9 +6,8 @@
 
 namespace fracbench {
 
-namespace {
-
-std::string cache_key(const Cell& cell, const Material& m) {
+std::string body_key(const Plan& plan, const Cell& cell) {
+  const Material& m = plan.shapes[cell.shape].scenarios[cell.scenario].scenario.material;
   Digest digest;
   digest.add(static_cast<std::uint64_t>(cell.shape));
   digest.add(static_cast<std::uint64_t>(cell.method));
@@ -19,8 +18,6 @@ std::string cache_key(const Cell& cell, const Material& m) {
   return digest.hex();
 }
 
-}  // namespace
-
 Prepared BreakableCache::get(const Cell& cell, Context& context) {
   const PlannedShape& shape = plan_.shapes[cell.shape];
   const PlannedMethod& method = plan_.methods[cell.method];
@@ -28,7 +25,7 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
   std::shared_ptr<Entry> entry;
   {
     const std::scoped_lock lock(mutex_);
-    std::shared_ptr<Entry>& slot = entries_[cache_key(cell, material)];
+    std::shared_ptr<Entry>& slot = entries_[body_key(plan_, cell)];
     if (!slot) slot = std::make_shared<Entry>();
     entry = slot;
   }
@@ -49,6 +46,7 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   entry->prepared = prepared;
   entry->made = true;
+  prepared.fresh = true;
   return prepared;
 }
 

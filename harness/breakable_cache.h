@@ -17,7 +17,11 @@ struct Prepared {
   std::shared_ptr<const Breakable> breakable;  ///< null where the method gave up
   std::string failure;                         ///< why, then
   double seconds = 0;                          ///< that it took
+  bool fresh = false;                          ///< it was made by this call
 };
+
+/// The same for all cells of one plan that share a prepared body: same shape, method and material.
+std::string body_key(const Plan& plan, const Cell& cell);
 
 /// Prepared bodies, made once for a shape, a method with its options and a material. For many
 /// threads: who comes while a body is being made waits for it.

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/error.h"
 #include "core/peak_memory.h"
-#include "harness/build_info.h"
+#include "harness/cell_record.h"
 #include "harness/provenance.h"
 #include "metrics/validity.h"
 
@@ -22,15 +21,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::string_view kWarmUpStage = "warm_up";
+
 std::optional<double> find_value(const Measurement& measurement, std::string_view name) {
   const auto found = std::ranges::find(measurement.values, name, &MetricValue::name);
   if (found == measurement.values.end()) return std::nullopt;
   return found->value;
-}
-
-void append(Measurement& all, Measurement more) {
-  std::ranges::move(more.values, std::back_inserter(all.values));
-  std::ranges::move(more.series, std::back_inserter(all.series));
 }
 
 /// Why fragments are not what the method promises; empty where they are.
@@ -79,42 +75,50 @@ void measure(const CellResult& cell, std::span<const std::unique_ptr<Metric>> me
 
 }  // namespace
 
-CellExecutor::CellExecutor(const Plan& plan, const Catalog& catalog, bool alone)
+CellExecutor::CellExecutor(const Plan& plan, const Catalog& catalog, bool alone,
+                           std::function<void(CellPhase)> phase)
     : plan_(plan),
       catalog_(catalog),
       alone_(alone),
+      phase_(std::move(phase)),
       cache_(plan),
-      provenance_(collect_provenance()) {
-  provenance_["suite"] = plan.suite.name;
-  for (const PlannedMethod& method : plan.methods) {
-    options_json_.push_back(method.options.to_json().dump());
+      provenance_(collect_provenance()) {}
+
+void CellExecutor::enter(CellPhase phase) const {
+  if (phase_) phase_(phase);
+}
+
+SceneResult CellExecutor::run_scene(const Cell& cell, const Prepared& prepared, StageTimer& timer,
+                                    Progress& progress, const std::stop_token& stop) const {
+  if (!prepared.breakable) throw MethodFailure(prepared.failure);
+  Random random(cell.seed);
+  Context context{.random = random,
+                  .timer = timer,
+                  .progress = progress,
+                  .stop = stop,
+                  .threads = plan_.suite.threads_per_cell};
+  SceneResult result =
+      catalog_.run_scene(plan_.shapes[cell.shape].scenarios[cell.scenario].scenario,
+                         *prepared.target, prepared.breakable, context);
+  context.stop_if_asked();
+  return result;
+}
+
+void CellExecutor::warm_up(const Cell& cell, const Prepared& prepared, StageTimer& timer,
+                           Progress& progress, const std::stop_token& stop) const {
+  if (!prepared.fresh) return;
+  const auto stage = timer.stage(kWarmUpStage);
+  for (int k = 0; k < plan_.suite.warm_up; ++k) {
+    enter(CellPhase::warm_up);
+    StageTimer nobodys;
+    run_scene(cell, prepared, nobodys, progress, stop);
   }
 }
 
 Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::stop_token& stop) {
   const PlannedShape& shape = plan_.shapes[cell.shape];
-  const PlannedScenario& scenario = shape.scenarios[cell.scenario];
   const PlannedMethod& method = plan_.methods[cell.method];
-  Record record{.key = cell.key,
-                .identity = {.method = method.info.name,
-                             .label = method.label,
-                             .method_options = options_json_[cell.method],
-                             .method_digest = method.info.source_digest,
-                             .shape = shape.label,
-                             .shape_digest = shape.digest,
-                             .family = scenario.scenario.family,
-                             .scenario = scenario.name,
-                             .scenario_values = to_json(scenario.scenario).dump(),
-                             .repeat = cell.repeat,
-                             .seed = cell.seed,
-                             .prepare_seed = cell.prepare_seed,
-                             .threads = plan_.suite.threads_per_cell,
-                             .source_digest = build_info().source_digest},
-                .outcome = {},
-                .cost = {}};
-  record.outcome.notes = shape.shape.notes;
-  record.cost.provenance = provenance_;
-  record.cost.provenance["started"] = utc_now();
+  Record record = begin_record(plan_, cell, provenance_);
 
   if (alone_) reset_peak_memory();
   StageTimer timer;
@@ -129,6 +133,7 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
     const auto rest = timer.stage("other");
     {
       const auto stage = timer.stage("prepare");
+      enter(CellPhase::prepare);
       Random random(cell.prepare_seed);
       Context context{.random = random,
                       .timer = timer,
@@ -138,16 +143,9 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
       prepared = cache_.get(cell, context);
     }
     record.cost.prepare_seconds = prepared.seconds;
-    if (!prepared.breakable) throw MethodFailure(prepared.failure);
-    Random random(cell.seed);
-    Context context{.random = random,
-                    .timer = timer,
-                    .progress = progress,
-                    .stop = stop,
-                    .threads = record.identity.threads};
-    record.outcome.scene =
-        catalog_.run_scene(scenario.scenario, *prepared.target, prepared.breakable, context);
-    context.stop_if_asked();
+    warm_up(cell, prepared, timer, progress, stop);
+    enter(CellPhase::measure);
+    record.outcome.scene = run_scene(cell, prepared, timer, progress, stop);
     const auto stage = timer.stage("metrics");
     const SceneResult& scene = record.outcome.scene;
     if (scene.impacts.empty()) record.outcome.status = CellStatus::unbroken;
@@ -183,17 +181,13 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
   }
   record.cost.total_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   record.cost.stages = timer.times();
-  record.cost.peak_memory = static_cast<double>(peak_memory());
-  const CellResult cost{.body = shape.shape.mesh,
-                        .fragments = record.outcome.scene.fragments,
-                        .impacts = record.outcome.scene.impacts,
-                        .stages = record.cost.stages,
-                        .total_seconds = record.cost.total_seconds,
-                        .peak_memory = record.cost.peak_memory,
-                        .threads = record.identity.threads};
-  for (const auto& metric : catalog_.metrics) {
-    if (metric->info().of_machine) append(record.cost.measurement, metric->measure(cost));
+  if (const auto warm = std::ranges::find(record.cost.stages, kWarmUpStage, &StageTime::name);
+      warm != record.cost.stages.end()) {
+    record.cost.total_seconds -= warm->seconds;
+    record.cost.stages.erase(warm);
   }
+  record.cost.peak_memory = static_cast<double>(peak_memory());
+  measure_cost(record, shape.shape.mesh, catalog_.metrics);
   return record;
 }
 

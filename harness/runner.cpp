@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -17,7 +18,9 @@
 #include "harness/cell_executor.h"
 #include "harness/cost_model.h"
 #include "harness/data_file.h"
+#include "harness/machine_load.h"
 #include "harness/record_store.h"
+#include "harness/workers/limits_met.h"
 
 namespace fracbench {
 
@@ -27,6 +30,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kProgressInterval = std::chrono::milliseconds(200);
 constexpr auto kClaimInterval = std::chrono::milliseconds(100);
+constexpr auto kLoadInterval = std::chrono::milliseconds(250);
+
+/// How many cells of the queue may be overtaken by one that is ready.
+constexpr std::size_t kAhead = 64;
 
 std::string describe(const Plan& plan, const Cell& cell) {
   const PlannedShape& shape = plan.shapes[cell.shape];
@@ -132,8 +139,16 @@ class Run {
   std::optional<std::size_t> next_cell() {
     const std::scoped_lock lock(mutex_);
     if (queue_.empty() || stop_.stop_requested()) return std::nullopt;
-    const std::size_t cell = queue_.front();
-    queue_.pop_front();
+    auto next = queue_.begin();
+    if (options_.ready) {
+      const auto end =
+          queue_.begin() + static_cast<std::ptrdiff_t>(std::min(kAhead, queue_.size()));
+      next = std::find_if(queue_.begin(), end,
+                          [&](std::size_t cell) { return options_.ready(plan_.cells[cell]); });
+      if (next == end) next = queue_.begin();
+    }
+    const std::size_t cell = *next;
+    queue_.erase(next);
     return cell;
   }
 
@@ -154,23 +169,43 @@ class Run {
   }
 
   Record execute(const Cell& cell, std::size_t index) {
+    if (options_.timed) std::call_once(load_measured_, [this] { look_at_machine(); });
     CellProgress progress(*this, index);
-    return execute_(cell, progress, stop_.get_token());
+    Record record = execute_(cell, progress, stop_.get_token());
+    record.cost.provenance["jobs"] = std::to_string(options_.jobs);
+    if (options_.timed) {
+      record.cost.provenance["busy_processors_before_run"] = fmt::format("{:.2f}", load_.busy);
+    }
+    return record;
+  }
+
+  void look_at_machine() {
+    load_ = measure_load(kLoadInterval);
+    if (load_.idle()) return;
+    say(
+        fmt::format("this machine is not idle ({}): times of this run say little, which their "
+                    "records tell",
+                    load_.describe()));
   }
 
   /// Whether a good record of the cell is there. With the claim, a bad one is set aside.
   bool take_found(const Cell& cell, const Claim* claim) {
     if (!store_.contains(cell.key)) return false;
     std::string damage;
+    std::string_view why = "damaged";
     try {
       const Record record = store_.read(cell.key);
-      note(cell, record.outcome.status, record.cost.total_seconds, true);
-      return true;
+      if (!may_do_better(record, plan_.methods[cell.method].limits)) {
+        note(cell, record.outcome.status, record.cost.total_seconds, true);
+        return true;
+      }
+      why = "outdated";
+      damage = fmt::format("tells of a limit that is higher now ({})", record.outcome.reason);
     } catch (const DataError& error) {
       damage = error.what();
     }
     if (!claim) return false;
-    const auto aside = store_.set_aside(*claim, cell.key, "damaged");
+    const auto aside = store_.set_aside(*claim, cell.key, why);
     say(fmt::format("{} ({}) {}; set aside as {} and measured again",
                     store_.record_file(cell.key).string(), describe(plan_, cell), damage,
                     aside.filename().string()));
@@ -236,6 +271,8 @@ class Run {
   const ExecuteCell execute_;
   const Clock::time_point start_ = Clock::now();
   std::stop_source stop_;
+  std::once_flag load_measured_;
+  MachineLoad load_;  // written once, before the first cell
 
   std::mutex mutex_;  // guards all that follows
   std::condition_variable changed_;

@@ -40,6 +40,12 @@ struct RunOptions {
   std::function<void(std::string_view)> message = {};
   /// How a cell is measured; by default in this process.
   ExecuteCell execute = {};
+  /// Whether a cell can be measured without something being prepared for it a second time. Among
+  /// the cells that come next, such ones go first.
+  std::function<bool(const Cell&)> ready = {};
+  /// The times shall count: whether the machine is idle is looked at before the first cell, said
+  /// where it is not, and written down.
+  bool timed = false;
 };
 
 /// Measures the cells of a plan whose records are not in the results folder yet. May be killed at

@@ -23,6 +23,21 @@ nlohmann::ordered_json to_json(const Material& material) {
   return json;
 }
 
+Vec3 vec3_from_json(const nlohmann::ordered_json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Material material_from_json(const nlohmann::ordered_json& json) {
+  return {.young_modulus = json.at("young_modulus").get<double>(),
+          .poisson_ratio = json.at("poisson_ratio").get<double>(),
+          .density = json.at("density").get<double>(),
+          .strength = json.at("strength").get<double>(),
+          .toughness = json.at("toughness").get<double>(),
+          .compressive_factor = json.at("compressive_factor").get<double>(),
+          .friction = json.at("friction").get<double>(),
+          .restitution = json.at("restitution").get<double>()};
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Scenario& scenario) {
@@ -44,6 +59,25 @@ nlohmann::ordered_json to_json(const Scenario& scenario) {
   json["frames"] = scenario.frames;
   json["refracture"] = scenario.refracture;
   return json;
+}
+
+Scenario scenario_from_json(const nlohmann::ordered_json& json) {
+  Scenario scenario{
+      .name = json.at("name").get<std::string>(),
+      .family = json.at("family").get<std::string>(),
+      .balls = {},
+      .material = material_from_json(json.at("material")),
+      .break_test = break_test_from(json.at("break_test").get<std::string>(), "scenario"),
+      .time_step = json.at("time_step").get<double>(),
+      .frames = json.at("frames").get<int>(),
+      .refracture = json.at("refracture").get<bool>()};
+  for (const auto& item : json.at("balls")) {
+    scenario.balls.push_back({.position = vec3_from_json(item.at("position")),
+                              .velocity = vec3_from_json(item.at("velocity")),
+                              .radius = item.at("radius").get<double>(),
+                              .material = material_from_json(item.at("material"))});
+  }
+  return scenario;
 }
 
 }  // namespace fracbench

@@ -37,4 +37,8 @@ struct Scenario {
 /// Everything that determines the scene, for records and keys.
 nlohmann::ordered_json to_json(const Scenario& scenario);
 
+/// The other way round, bit for bit. Throws nlohmann::json::exception or InputError for what
+/// to_json does not write.
+Scenario scenario_from_json(const nlohmann::ordered_json& json);
+
 }  // namespace fracbench

@@ -17,6 +17,7 @@
 #include "harness/suite_overrides.h"
 #include "harness/suite_reader.h"
 #include "harness/terminal_progress.h"
+#include "harness/workers/worker_pool.h"
 
 namespace fracbench {
 
@@ -30,6 +31,7 @@ struct RunArguments {
   std::string shard;
   int jobs = 1;
   bool dry_run = false;
+  bool in_process = false;
   bool as_json = false;
 };
 
@@ -47,12 +49,19 @@ void print_result(const RunResult& result, const RunArguments& arguments) {
 RunResult run_shown(const Plan& plan, const Catalog& catalog, const RunArguments& arguments,
                     const std::stop_token& stop) {
   TerminalProgress shown(std::cerr, is_terminal(STDERR_FILENO), terminal_columns(STDERR_FILENO));
-  return run_suite(plan, catalog,
-                   {.folder = arguments.out,
-                    .jobs = arguments.jobs,
-                    .stop = stop,
-                    .progress = [&](const RunProgress& progress) { shown.update(progress); },
-                    .message = [&](std::string_view text) { shown.message(text); }});
+  RunOptions options{.folder = arguments.out,
+                     .jobs = arguments.jobs,
+                     .stop = stop,
+                     .progress = [&](const RunProgress& progress) { shown.update(progress); },
+                     .message = [&](std::string_view text) { shown.message(text); },
+                     .timed = arguments.jobs == 1};
+  if (arguments.in_process) return run_suite(plan, catalog, options);
+  WorkerPool pool(plan, catalog, {});
+  options.execute = [&](const Cell& cell, Progress& progress, const std::stop_token& asked) {
+    return pool.execute(cell, progress, asked);
+  };
+  options.ready = [&](const Cell& cell) { return pool.ready(cell); };
+  return run_suite(plan, catalog, options);
 }
 
 ExitCode run(RunArguments arguments, std::stop_token stop) {
@@ -98,17 +107,23 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->delimiter(',');
   command->add_option("--shapes", a->plan.shapes, "Only these shapes (comma-separated)")
       ->delimiter(',');
-  command->add_option("--jobs", a->jobs, "Cells measured at a time; 1 for timings that count")
+  command
+      ->add_option(
+          "--jobs", a->jobs,
+          "Cells measured at a time, each in a process of its own; 1 for timings that count")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command
       ->add_option("--set", a->settings,
                    "Change a value of the suite: seed=7, repeats=3, method.cvd.sites=40, "
-                   "scenario.single.count=10, shape.*.resolution=20")
+                   "scenario.single.count=10, shape.*.resolution=20, timeout_s=60, memory_mb=4000")
       ->allow_extra_args(false)
       ->take_all();
   command->add_option("--shard", a->shard, "Only part i of n of the cells: i/n");
   command->add_flag("--dry-run", a->dry_run, "Only say what there is to do, and what it costs");
+  command->add_flag("--in-process", a->in_process,
+                    "Measure in this process: for debuggers; a crash ends the run, and limits of "
+                    "time and memory are not held");
   command->add_flag("--json", a->as_json, "Print the outcome as one JSON object");
   command->callback([&chosen, a] { chosen = [a](std::stop_token stop) { return run(*a, stop); }; });
 }

@@ -181,6 +181,30 @@ TEST_F(RunnerTest, StageTimesAddUpToTheTotalWithinTwoPercent) {
   EXPECT_LT(unnamed, 0.1 * total) << "time in no stage of its own";
 }
 
+TEST_F(RunnerTest, WarmUpRunsComeOnceForEachBodyAndAreNotCounted) {
+  std::atomic<int> scenes = 0;
+  Catalog counting = catalog;
+  counting.run_scene = [&](const Scenario& scenario, const Target& target,
+                           std::shared_ptr<const Breakable> body, Context& context) {
+    ++scenes;
+    return catalog.run_scene(scenario, target, std::move(body), context);
+  };
+  run(make_plan(suite, catalog), {.folder = base / "cold"});
+  Suite warm = with_override(suite, "warm_up=3", catalog);
+  warm = with_override(warm, "method.*.wait=0.01", catalog);
+  run_suite(make_plan(warm, counting), counting, {.folder = folder});
+  EXPECT_EQ(scenes, 12 + 4 * 3) << "two shapes, two methods";
+  for (const CellSummary& cell : read_summaries(folder)) {
+    EXPECT_LT(cell.total_seconds, 0.03);
+    double sum = 0;
+    for (const StageTime& stage : cell.stages) sum += stage.seconds;
+    EXPECT_NEAR(sum / cell.total_seconds, 1, 0.02);
+  }
+  warm = with_override(suite, "warm_up=1", catalog);
+  run(make_plan(warm, catalog), {.folder = base / "warm"});
+  EXPECT_EQ(digests(base / "warm"), digests(base / "cold"));
+}
+
 TEST_F(RunnerTest, ADamagedRecordIsSetAsideAndMeasuredAgain) {
   const Plan plan = make_plan(suite, catalog);
   run(plan);

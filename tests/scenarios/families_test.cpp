@@ -49,6 +49,11 @@ TEST(Families, ALongerRunContainsTheShorterOne) {
     ASSERT_EQ(longer.size(), 9u);
     for (std::size_t k = 0; k < shorter.size(); ++k) {
       EXPECT_EQ(to_json(shorter[k]), to_json(longer[k])) << name;
+      EXPECT_EQ(
+          to_json(scenario_from_json(nlohmann::ordered_json::parse(to_json(longer[k]).dump())))
+              .dump(),
+          to_json(longer[k]).dump())
+          << name;
     }
   }
 }
