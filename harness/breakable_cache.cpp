@@ -6,8 +6,7 @@
 
 namespace fracbench {
 
-std::string body_key(const Plan& plan, const Cell& cell) {
-  const Material& m = plan.shapes[cell.shape].scenarios[cell.scenario].scenario.material;
+std::string BreakableCache::key(const Cell& cell, const Material& m) {
   Digest digest;
   digest.add(static_cast<std::uint64_t>(cell.shape));
   digest.add(static_cast<std::uint64_t>(cell.method));
@@ -25,7 +24,7 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
   std::shared_ptr<Entry> entry;
   {
     const std::scoped_lock lock(mutex_);
-    std::shared_ptr<Entry>& slot = entries_[body_key(plan_, cell)];
+    std::shared_ptr<Entry>& slot = entries_[key(cell, material)];
     if (!slot) slot = std::make_shared<Entry>();
     entry = slot;
   }

@@ -20,14 +20,14 @@ struct Prepared {
   bool fresh = false;                          ///< it was made by this call
 };
 
-/// The same for all cells of one plan that share a prepared body: same shape, method and material.
-std::string body_key(const Plan& plan, const Cell& cell);
-
 /// Prepared bodies, made once for a shape, a method with its options and a material. For many
 /// threads: who comes while a body is being made waits for it.
 class BreakableCache {
  public:
   explicit BreakableCache(const Plan& plan) : plan_(plan) {}
+
+  /// Equal for two cells of a plan that share a body.
+  static std::string key(const Cell& cell, const Material& material);
 
   /// The body for this cell. Throws what Method::prepare throws, but for MethodFailure, which is
   /// kept like a body.

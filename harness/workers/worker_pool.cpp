@@ -36,6 +36,11 @@ WorkerPool::WorkerPool(const Plan& plan, const Catalog& catalog, WorkerPoolOptio
       available_at_start_(available_memory()),
       spawner_(options_.command) {}
 
+std::string WorkerPool::body_key(const Cell& cell) const {
+  return BreakableCache::key(cell,
+                             plan_.shapes[cell.shape].scenarios[cell.scenario].scenario.material);
+}
+
 bool WorkerPool::ready(const Cell& cell) const {
   const std::scoped_lock lock(mutex_);
   const Kind kind = kind_of(cell);
@@ -45,7 +50,7 @@ bool WorkerPool::ready(const Cell& cell) const {
 }
 
 Record WorkerPool::execute(const Cell& cell, Progress& progress, const std::stop_token& stop) {
-  const std::string body = body_key(plan_, cell);
+  const std::string body = body_key(cell);
   {
     const std::scoped_lock lock(mutex_);
     if (const auto lost = unprepared_.find(body); lost != unprepared_.end()) {
@@ -91,7 +96,7 @@ Record WorkerPool::ask(WorkerProcess& worker, const Cell& cell, Progress& progre
   if (loss.phase == CellPhase::prepare) {
     // The other cells of this body would be lost in the same way, each after as long a time.
     const std::scoped_lock lock(mutex_);
-    unprepared_.emplace(body_key(plan_, cell), loss);
+    unprepared_.emplace(body_key(cell), loss);
   }
   return lost_record(cell, loss);
 }

@@ -49,6 +49,7 @@ class WorkerPool {
 
   static Kind kind_of(const Cell& cell) { return {cell.shape, cell.method}; }
 
+  std::string body_key(const Cell& cell) const;
   Record ask(WorkerProcess& worker, const Cell& cell, Progress& progress,
              const std::stop_token& stop, bool& healthy);
   std::unique_ptr<WorkerProcess> take(const Cell& cell);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "harness/suite_reader.h"
+#include "hostile_method.h"
 
 namespace fracbench {
 
@@ -239,6 +240,7 @@ class Clock : public Metric {
 
 ToyWorld::ToyWorld() {
   methods_.push_back(std::make_unique<Halves>());
+  methods_.push_back(make_hostile_method());
   families_.push_back(std::make_unique<Shove>());
   metrics_.push_back(std::make_unique<Size>());
   metrics_.push_back(std::make_unique<Clock>());

@@ -13,7 +13,7 @@ namespace fracbench {
 ///
 /// Method "halves": options `margin` (m), `pieces`, `trouble` (none, failure, memory, error, leak)
 /// and `wait` (s for each fracture). Family "shove": options `count`, `speed` (below 10 m/s nothing
-/// breaks). Shapes "box" and "slab". Metrics "size" and "clock", the latter of the machine.
+/// breaks). Method "hostile": see hostile_method.h. Shapes "box" and "slab". Metrics "size" and "clock", the latter of the machine.
 class ToyWorld {
  public:
   ToyWorld();
