@@ -56,7 +56,7 @@ class Follower {
   void compact();
   void require_disc() const;
 
-  bool split_at(std::size_t marker, std::size_t from, std::size_t to);
+  void split_at(std::size_t marker, std::size_t from, std::size_t to);
   bool may_collapse(std::int32_t gone, std::int32_t kept, std::size_t shared) const;
   void collapse(std::int32_t gone, std::int32_t kept);
   std::vector<Edge> edges() const;
@@ -104,56 +104,103 @@ std::size_t Follower::face_of_edge(std::int32_t from, std::int32_t to) const {
   throw MethodFailure(fmt::format("crack front: the sheet lost its boundary edge {} {}", from, to));
 }
 
-/// New rows of triangles in front of the boundary, and vertices moved where it moved little.
+/// New rows of triangles in front of the boundary, and vertices moved where it moved little. A
+/// vertex stays behind its marker for now where a triangle would turn over.
 void Follower::grow() {
+  enum class Change { stay, move, row };
   const std::vector<std::size_t> coarse = coarse_markers(crack_);
   const std::size_t m = coarse.size();
-  std::vector<std::uint8_t> leaves_row(m, 0);
-  std::vector<std::int32_t> place(mesh_.vertices.size(), kNone);
+  std::vector<Change> change(m);
+  std::vector<std::int32_t> old(m), now(m), place(mesh_.vertices.size(), kNone);
   for (std::size_t c = 0; c < m; ++c) {
     const FrontMarker& marker = front_[coarse[c]];
-    leaves_row[c] = (marker.position - at(marker.coarse)).norm() > kNewRow * size_;
-    place[marker.coarse] = static_cast<std::int32_t>(c);
+    const double length = (marker.position - at(marker.coarse)).norm();
+    change[c] = length > kNewRow * size_ ? Change::row : length > 0 ? Change::move : Change::stay;
+    old[c] = marker.coarse;
+    place[old[c]] = static_cast<std::int32_t>(c);
   }
-  // A vertex whose move would turn a triangle over leaves a row behind as well.
-  for (int pass = 0; pass < 3; ++pass) {
-    bool turned = false;
+  const auto target = [&](std::size_t c) -> const Vec3& {
+    return change[c] == Change::stay ? at(old[c]) : front_[coarse[c]].position;
+  };
+  const auto behind = [&](std::size_t c) -> const Vec3& {
+    return change[c] == Change::move ? target(c) : at(old[c]);
+  };
+  const auto upright = [&](const Vec3& normal, const Vec3& reference) {
+    return normal.norm() > 1e-3 * size_ * size_ &&
+           normal.dot(reference) > 0.2 * normal.norm() * reference.norm();
+  };
+  /// Whether the shorter diagonal of the strip's quadrangle ends at the new place of c + 1.
+  const auto across = [&](std::size_t c, std::size_t next) {
+    return (at(old[c]) - target(next)).norm() < (at(old[next]) - target(c)).norm();
+  };
+  const auto strip_is_upright = [&](std::size_t c, std::size_t next) {
+    const Vec3 reference = front_[coarse[c]].normal + front_[coarse[next]].normal;
+    const bool own = change[c] == Change::row, other = change[next] == Change::row;
+    if (own && other) {
+      return across(c, next)
+                 ? upright(normal_of(at(old[c]), target(c), target(next)), reference) &&
+                       upright(normal_of(at(old[next]), at(old[c]), target(next)), reference)
+                 : upright(normal_of(at(old[next]), at(old[c]), target(c)), reference) &&
+                       upright(normal_of(at(old[next]), target(c), target(next)), reference);
+    }
+    if (own) return upright(normal_of(behind(next), at(old[c]), target(c)), reference);
+    if (other) return upright(normal_of(at(old[next]), behind(c), target(next)), reference);
+    return true;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
     for (const Face& face : mesh_.faces) {
       std::array<Vec3, 3> p;
       for (int k = 0; k < 3; ++k) {
-        const std::int32_t c = place[face[k]];
-        const bool moves = c != kNone && !leaves_row[c];
-        p[k] = moves ? front_[coarse[c]].position : at(face[k]);
+        p[k] = place[face[k]] == kNone ? at(face[k]) : behind(place[face[k]]);
       }
       const Vec3 before = normal_of(at(face[0]), at(face[1]), at(face[2]));
-      const Vec3 after = normal_of(p[0], p[1], p[2]);
-      if (before.dot(after) > 0.3 * before.norm() * after.norm()) continue;
+      if (normal_of(p[0], p[1], p[2]).dot(before) > 0.3 * before.squaredNorm()) continue;
       for (int k = 0; k < 3; ++k) {
         const std::int32_t c = place[face[k]];
-        if (c == kNone || leaves_row[c] || front_[coarse[c]].position == at(face[k])) continue;
-        leaves_row[c] = 1;
-        turned = true;
+        if (c == kNone || change[c] != Change::move) continue;
+        change[c] = Change::stay;
+        changed = true;
       }
     }
-    if (!turned) break;
+    for (std::size_t c = 0; c < m; ++c) {
+      const std::size_t next = (c + 1) % m;
+      if (strip_is_upright(c, next)) continue;
+      for (const std::size_t end : {c, next}) {
+        changed = changed || change[end] != Change::stay;
+        change[end] = Change::stay;
+      }
+    }
   }
-  std::vector<std::int32_t> old(m), now(m);
   for (std::size_t c = 0; c < m; ++c) {
     FrontMarker& marker = front_[coarse[c]];
-    old[c] = now[c] = marker.coarse;
-    if (leaves_row[c]) {
+    now[c] = old[c];
+    if (change[c] == Change::row) {
       now[c] = static_cast<std::int32_t>(mesh_.vertices.size());
       mesh_.vertices.push_back(marker.position);
       marker.coarse = now[c];
-    } else {
-      mesh_.vertices[marker.coarse] = marker.position;
+    } else if (change[c] == Change::move) {
+      mesh_.vertices[old[c]] = marker.position;
     }
+  }
+  // Whoever stayed behind belongs to the marker that is nearest now.
+  std::vector<std::size_t> tags = coarse;
+  for (std::size_t c = 0; c < m; ++c) {
+    if (change[c] != Change::stay) continue;
+    const std::size_t n = front_.size(), before = tags[(c + m - 1) % m], after = tags[(c + 1) % m];
+    std::size_t nearest = tags[c];
+    for (std::size_t i = (before + 1) % n; i != after; i = (i + 1) % n) {
+      const double length = (front_[i].position - at(old[c])).norm();
+      if (length < (front_[nearest].position - at(old[c])).norm()) nearest = i;
+    }
+    front_[tags[c]].coarse = kNone;
+    front_[nearest].coarse = old[c];
+    tags[c] = nearest;
   }
   for (std::size_t c = 0; c < m; ++c) {
     const std::size_t next = (c + 1) % m;
     const bool own = now[c] != old[c], other = now[next] != old[next];
     if (own && other) {
-      // The shorter diagonal.
       if ((at(old[c]) - at(now[next])).norm() < (at(old[next]) - at(now[c])).norm()) {
         mesh_.faces.push_back({old[c], now[c], now[next]});
         mesh_.faces.push_back({old[next], old[c], now[next]});
@@ -209,15 +256,15 @@ void Follower::collapse_boundary() {
     const std::size_t m = coarse.size();
     FrontMarker& a = front_[coarse[c]];
     FrontMarker& b = front_[coarse[(c + 1) % m]];
-    const double length = (a.position - b.position).norm();
+    const double length = (at(a.coarse) - at(b.coarse)).norm();
     if (length >= kShortest * size_) {
       ++c;
       continue;
     }
-    const Vec3 before = front_[coarse[(c + m - 1) % m]].position;
-    const Vec3 after = front_[coarse[(c + 2) % m]].position;
+    const Vec3 before = at(front_[coarse[(c + m - 1) % m]].coarse);
+    const Vec3 after = at(front_[coarse[(c + 2) % m]].coarse);
     // Rather the vertex that stands closer to its other neighbour goes; the other where it cannot.
-    bool first = (a.position - before).norm() < (b.position - after).norm();
+    bool first = (at(a.coarse) - before).norm() < (at(b.coarse) - after).norm();
     // A vertex that advances is not given up for one that has stopped: its run would lose it.
     if (a.state != b.state) first = b.state == FrontState::advancing;
     FrontMarker* gone = first ? &a : &b;
@@ -237,7 +284,7 @@ void Follower::collapse_boundary() {
 }
 
 /// Makes marker `marker`, between the coarse markers `from` and `to`, a vertex of the boundary.
-bool Follower::split_at(std::size_t marker, std::size_t from, std::size_t to) {
+void Follower::split_at(std::size_t marker, std::size_t from, std::size_t to) {
   const std::int32_t a = front_[from].coarse, b = front_[to].coarse;
   const Vec3& p = front_[marker].position;
   const std::size_t f = face_of_edge(a, b);
@@ -253,17 +300,19 @@ bool Follower::split_at(std::size_t marker, std::size_t from, std::size_t to) {
   const auto added = static_cast<std::int32_t>(mesh_.vertices.size());
   const Vec3 ear = normal_of(at(b), at(a), p);
   const bool far = ear.norm() > kNewRow * size_ * (at(a) - at(b)).norm();
+  Vec3 place = p;
   if (far && agrees(ear)) {
     mesh_.faces.push_back({b, a, added});
-  } else if (agrees(normal_of(at(a), p, at(apex))) && agrees(normal_of(p, at(b), at(apex)))) {
+  } else {
+    // Where the marker's own place would turn a triangle over, the vertex starts on the edge.
+    if (!agrees(normal_of(at(a), p, at(apex))) || !agrees(normal_of(p, at(b), at(apex)))) {
+      place = 0.5 * (at(a) + at(b));
+    }
     mesh_.faces[f] = {a, added, apex};
     mesh_.faces.push_back({added, b, apex});
-  } else {
-    return false;
   }
-  mesh_.vertices.push_back(p);
+  mesh_.vertices.push_back(place);
   front_[marker].coarse = added;
-  return true;
 }
 
 /// Every run that advances gets a vertex.
@@ -289,8 +338,7 @@ void Follower::split_boundary() {
     const std::vector<std::size_t> coarse = coarse_markers(crack_);
     for (std::size_t c = 0; c < coarse.size(); ++c) {
       const std::size_t from = coarse[c], to = coarse[(c + 1) % coarse.size()];
-      const Vec3& a = front_[from].position;
-      const Vec3& b = front_[to].position;
+      const Vec3 a = at(front_[from].coarse), b = at(front_[to].coarse);
       if ((a - b).norm() <= kLongest * size_) continue;
       // The marker that halves the edge best.
       double best = std::numeric_limits<double>::infinity();
@@ -303,7 +351,9 @@ void Follower::split_boundary() {
           middle = i;
         }
       }
-      if (middle != n) any = split_at(middle, from, to) || any;
+      if (middle == n) continue;
+      split_at(middle, from, to);
+      any = true;
     }
     if (!any) break;
   }
