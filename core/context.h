@@ -1,7 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -18,6 +21,16 @@ struct Context {
   std::stop_token stop = {};
   int threads = 1;
   std::string device = "cpu";
+  /// What a break should be remembered with beside its pieces, a line each; part of the record, so
+  /// the same lines for the same seed. Null: nobody listens.
+  std::vector<std::string>* notes = nullptr;
+  /// A folder for pictures of the break, in files whose names start with the method's; empty: none.
+  /// What is broken does not depend on it.
+  std::filesystem::path pictures = {};
+
+  void note(std::string line) const {
+    if (notes) notes->push_back(std::move(line));
+  }
 
   /// Throws Cancelled when the work was asked to stop; long loops call it at least twice a second.
   void stop_if_asked() const {

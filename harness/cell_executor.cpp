@@ -89,14 +89,16 @@ void CellExecutor::enter(CellPhase phase) const {
 }
 
 SceneResult CellExecutor::run_scene(const Cell& cell, const Prepared& prepared, StageTimer& timer,
-                                    Progress& progress, const std::stop_token& stop) const {
+                                    Progress& progress, const std::stop_token& stop,
+                                    std::vector<std::string>* notes) const {
   if (!prepared.breakable) throw MethodFailure(prepared.failure);
   Random random(cell.seed);
   Context context{.random = random,
                   .timer = timer,
                   .progress = progress,
                   .stop = stop,
-                  .threads = plan_.suite.threads_per_cell};
+                  .threads = plan_.suite.threads_per_cell,
+                  .notes = notes};
   SceneResult result =
       catalog_.run_scene(plan_.shapes[cell.shape].scenarios[cell.scenario].scenario,
                          *prepared.target, prepared.breakable, context);
@@ -111,7 +113,7 @@ void CellExecutor::warm_up(const Cell& cell, const Prepared& prepared, StageTime
   for (int k = 0; k < plan_.suite.warm_up; ++k) {
     enter(CellPhase::warm_up);
     StageTimer nobodys;
-    run_scene(cell, prepared, nobodys, progress, stop);
+    run_scene(cell, prepared, nobodys, progress, stop, nullptr);
   }
 }
 
@@ -145,7 +147,7 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
     record.cost.prepare_seconds = prepared.seconds;
     warm_up(cell, prepared, timer, progress, stop);
     enter(CellPhase::measure);
-    record.outcome.scene = run_scene(cell, prepared, timer, progress, stop);
+    record.outcome.scene = run_scene(cell, prepared, timer, progress, stop, &record.outcome.notes);
     const auto stage = timer.stage("metrics");
     const SceneResult& scene = record.outcome.scene;
     if (scene.impacts.empty()) record.outcome.status = CellStatus::unbroken;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "app/arguments.h"
 #include "app/command.h"
@@ -48,6 +49,7 @@ struct FractureArguments {
   std::string impact;
   std::string scenario;
   std::filesystem::path out;
+  std::filesystem::path pictures;
   std::vector<std::string> settings;
   std::string format = "obj";
   std::string frame = "mesh";
@@ -136,6 +138,15 @@ Fragments in_frame(const Fragments& fragments, const ShapeFrame& frame, const st
   return result;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(
+        fmt::format("--pictures {}: cannot be made: {}", folder.string(), error.message()));
+  }
+}
+
 ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
   if (!arguments.balls.empty() + !arguments.impact.empty() + !arguments.scenario.empty() != 1) {
     throw InputError(
@@ -149,12 +160,20 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
   const Options options = parse_settings(method.options(), arguments.settings,
                                          fmt::format("method '{}'", arguments.method));
   require_usable_folder(arguments.out);
+  if (!arguments.pictures.empty()) make_folder(arguments.pictures);
 
   reset_peak_memory();
   StageTimer timer;
   CommandProgress progress;
   Random random(static_cast<std::uint64_t>(arguments.seed));
-  Context context{random, timer, progress, stop, arguments.threads};
+  std::vector<std::string> notes;
+  Context context{.random = random,
+                  .timer = timer,
+                  .progress = progress,
+                  .stop = stop,
+                  .threads = arguments.threads,
+                  .notes = &notes,
+                  .pictures = arguments.pictures};
 
   Shape shape = load_shape({.name = arguments.mesh, .longest_side = 0});
   const ShapeFrame frame(std::move(shape.mesh), arguments.longest_side);
@@ -174,6 +193,7 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
                              .peak_memory = static_cast<double>(peak_memory()),
                              .threads = arguments.threads});
   if (!broken.reason.empty()) result["reason"] = broken.reason;
+  if (!notes.empty()) result["notes"] = notes;
   result["method"] = arguments.method;
   result["options"] = options.to_json();
   result["mesh"] = arguments.mesh;
@@ -190,6 +210,7 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
   } else {
     fmt::print("{}", describe_result(result));
     if (!broken.reason.empty()) fmt::print("not broken         {}\n", broken.reason);
+    for (const std::string& note : notes) fmt::print("note               {}\n", note);
     fmt::print("written to         {}\n", arguments.out.string());
   }
   return broken.failed ? ExitCode::not_measured : ExitCode::good;
@@ -228,6 +249,9 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
       ->add_option("--out", a->out,
                    "Folder for fragments, fragments.glb, result.json and trajectory.json")
       ->required();
+  command->add_option(
+      "--pictures", a->pictures,
+      "Folder for pictures of how it broke (VTK files), from methods that make any");
   command->add_option("--set", a->settings, "Option of the method: name=value")
       ->allow_extra_args(false)
       ->take_all();
