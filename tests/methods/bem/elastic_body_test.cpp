@@ -4,7 +4,7 @@
 
 #include "methods/bem/elastic_operator.h"
 #include "methods/bem/surface_stress.h"
-#include "tests/methods/bem/elastic_bodies.h"
+#include "tests/methods/bem/plain_context.h"
 
 namespace fracbench::bem {
 namespace {

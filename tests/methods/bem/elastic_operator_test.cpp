@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "tests/methods/bem/elastic_bodies.h"
+#include "tests/methods/bem/plain_context.h"
 
 namespace fracbench::bem {
 namespace {

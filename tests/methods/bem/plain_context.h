@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/context.h"
-#include "core/triangle_mesh.h"
+#include "methods/bem/validation/smooth_bodies.h"
 
 namespace fracbench::bem {
 
@@ -19,8 +19,5 @@ class PlainContext {
   Progress progress_;
   Context context_;
 };
-
-/// The unit cube [0, 1]^3 with `cells` x `cells` squares of two triangles on each side.
-TriangleMesh cube_surface(int cells);
 
 }  // namespace fracbench::bem
