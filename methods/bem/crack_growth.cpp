@@ -26,6 +26,32 @@ struct Stop {
   FrontState state;
 };
 
+/// Where a marker ends that has just left the body at `exit`: farther out, by up to two voxels,
+/// into the middle between its own way and the way straight away from the body, since one that
+/// leaves it at a grazing angle would not get away from its voxels.
+Vec3 beyond_surface(const Vec3& exit, const FrontMarker& marker, const Vec3& direction,
+                    const CutLinks& links) {
+  constexpr int kDirections = 8;
+  const double reach = kSurfaceOvershoot * links.spacing();
+  const Vec3 across = direction.cross(marker.normal);
+  Vec3 away = Vec3::Zero();
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kDirections;
+    const Vec3 way = std::cos(angle) * direction + std::sin(angle) * across;
+    if (links.inside(exit + reach * way)) away -= way;
+  }
+  Vec3 out = direction;
+  if (away.norm() > 0.1) out += away.normalized();
+  if (out.norm() < 0.1) out = away;
+  out.normalize();
+  Vec3 end = exit;
+  for (double over = kMarch; over <= kSurfaceOvershoot; over += kMarch) {
+    const Vec3 next = exit + over * links.spacing() * out;
+    if (!links.inside(next)) end = next;
+  }
+  return end;
+}
+
 /// Where a marker ends that goes straight on from `from`, a point in the body, for `length`; empty
 /// where nothing is in the way.
 std::optional<Stop> stop_on_way(const FrontMarker& marker, const Vec3& direction, double length,
@@ -41,14 +67,7 @@ std::optional<Stop> stop_on_way(const FrontMarker& marker, const Vec3& direction
       return Stop{at(here + kCrackOvershoot * voxel), FrontState::at_crack};
     }
     if (!links.inside(at(here))) {
-      // Not so far that it enters the body again on the other side of a gap.
-      double end = here;
-      for (int over = 1; over <= static_cast<int>(kSurfaceOvershoot / kMarch); ++over) {
-        const double next = here + over * kMarch * voxel;
-        if (links.inside(at(next))) break;
-        end = next;
-      }
-      return Stop{at(end), FrontState::at_surface};
+      return Stop{beyond_surface(at(here), marker, direction, links), FrontState::at_surface};
     }
     before = here;
   }
@@ -190,7 +209,10 @@ std::vector<FrontMarker> Sweep::between(const FrontMarker& a, const FrontMarker&
     const Vec3 normal = (1 - t) * a.normal + t * b.normal;
     const Vec3 upright = normal - normal.dot(m.forward) * m.forward;
     if (upright.norm() > 0.1) m.normal = upright.normalized();
-    if (!space_.links.inside(m.position)) m.state = FrontState::at_surface;
+    if (!space_.links.inside(m.position)) {
+      m.state = FrontState::at_surface;
+      m.position = beyond_surface(m.position, m, m.forward, space_.links);
+    }
   }
   return markers;
 }
@@ -307,8 +329,7 @@ std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, Cr
       marker.position = plane.center + kFirstRadius * options.spacing * marker.forward;
       if (!space.links.inside(marker.position)) {
         marker.state = FrontState::at_surface;
-        const Vec3 beyond = marker.position + space.links.spacing() * marker.forward;
-        if (!space.links.inside(beyond)) marker.position = beyond;
+        marker.position = beyond_surface(marker.position, marker, marker.forward, space.links);
       }
       any = any || marker.state == FrontState::advancing;
       marker.vertex = k + 1;
@@ -328,7 +349,7 @@ std::optional<SeededCrack> seed_crack(const CrackSeed& seed, std::int32_t id, Cr
       seeded.area += advance(crack, id, step, space, options);
       reached += step;
     }
-    mesh_disc(crack, plane.center, options);
+    mesh_disc(crack, plane.center);
     return seeded;
   }
   return std::nullopt;

@@ -370,8 +370,18 @@ void Follower::split_edges() {
     std::stable_sort(all.begin(), all.end(),
                      [](const Edge& x, const Edge& y) { return x.length > y.length; });
     std::vector<std::uint8_t> touched(mesh_.faces.size(), 0);
+    const auto longest_side = [&](std::int32_t f) {
+      double longest = 0;
+      for (int k = 0; k < 3; ++k) {
+        longest = std::max(longest, (mesh_.corner(f, k) - mesh_.corner(f, (k + 1) % 3)).norm());
+      }
+      return longest * (1 - 1e-12);
+    };
     for (const Edge& edge : all) {
       if (touched[edge.left] || touched[edge.right]) continue;
+      // The longest side of a triangle first, or ever thinner triangles come of a long boundary
+      // edge that cannot be split.
+      if (longest_side(edge.left) > edge.length || longest_side(edge.right) > edge.length) continue;
       const auto middle = static_cast<std::int32_t>(mesh_.vertices.size());
       mesh_.vertices.push_back(0.5 * (at(edge.a) + at(edge.b)));
       for (const std::int32_t f : {edge.left, edge.right}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/measures.h"
@@ -10,8 +11,8 @@
 namespace fracbench::bem {
 namespace {
 
-constexpr int kFewestCoarse = 6;
-constexpr double kSeedEdge = 0.6;  // of mesh_size: edges of the first fan
+constexpr int kSeedEdges = 8;  // of the first fan
+constexpr int kFewestSeedEdges = 5;
 
 /// A stretch of the front that advances: markers first, first + 1, ... (around the loop).
 struct Run {
@@ -68,6 +69,32 @@ void clip_ears(Crack& crack, const Vec3& normal) {
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(best));
   }
   mesh.faces.push_back({rest[0], rest[1], rest[2]});
+}
+
+/// Markers at equal angles around the centre, in order: where the outline goes back on itself, as
+/// it may beyond the surface, some angles have none.
+std::vector<std::size_t> markers_by_angle(const std::vector<FrontMarker>& front,
+                                          const Vec3& center) {
+  const std::size_t n = front.size();
+  const Vec3 axis = front[0].normal.unitOrthogonal(), other_axis = front[0].normal.cross(axis);
+  std::vector<std::size_t> chosen;
+  for (int c = 0; c < kSeedEdges; ++c) {
+    const double angle = 2 * std::numbers::pi * c / kSeedEdges;
+    const Vec3 way = std::cos(angle) * axis + std::sin(angle) * other_axis;
+    std::size_t nearest = 0;
+    double best = -2;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double cosine = (front[k].position - center).normalized().dot(way);
+      if (cosine <= best) continue;
+      best = cosine;
+      nearest = k;
+    }
+    const auto after_first = [&](std::size_t k) { return (k + n - chosen[0]) % n; };
+    if (chosen.empty() || after_first(nearest) > after_first(chosen.back())) {
+      chosen.push_back(nearest);
+    }
+  }
+  return chosen;
 }
 
 struct Directions {
@@ -128,37 +155,27 @@ void update_boundary(Crack& crack) {
   }
 }
 
-void mesh_disc(Crack& crack, const Vec3& center, const GrowthOptions& options) {
+void mesh_disc(Crack& crack, const Vec3& center) {
   std::vector<FrontMarker>& front = crack.front;
   const std::size_t n = front.size();
-  // The first vertex is where the front begins, so that the mouth's corners are kept.
-  const std::vector<Run> runs = advancing_runs(front);
-  const std::size_t start = runs.empty() ? 0 : (runs[0].first + n - 1) % n;
-  std::vector<double> along(n + 1, 0);
-  for (std::size_t k = 0; k < n; ++k) {
-    along[k + 1] =
-        along[k] + (front[(start + k + 1) % n].position - front[(start + k) % n].position).norm();
+  std::vector<std::size_t> chosen = markers_by_angle(front, center);
+  if (static_cast<int>(chosen.size()) < kFewestSeedEdges) {
+    chosen.clear();
+    for (std::size_t c = 0; c < kSeedEdges; ++c) chosen.push_back(c * n / kSeedEdges);
   }
-  const int count = std::max(
-      kFewestCoarse, static_cast<int>(std::lround(along[n] / (kSeedEdge * options.mesh_size))));
   TriangleMesh& mesh = crack.sheet.mesh;
   mesh.vertices.assign(1, Vec3::Zero());
-  std::size_t k = 0;
-  for (int c = 0; c < count; ++c) {
-    const double target = along[n] * c / count;
-    while (k + 1 < n && std::abs(along[k + 1] - target) < std::abs(along[k] - target)) ++k;
-    FrontMarker& marker = front[(start + k) % n];
-    if (marker.coarse >= 0) continue;
-    marker.coarse = static_cast<std::int32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(marker.position);
-    mesh.vertices[0] += marker.position;
+  for (const std::size_t k : chosen) {
+    front[k].coarse = static_cast<std::int32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(front[k].position);
+    mesh.vertices[0] += front[k].position;
   }
-  // The front's loop starts at the first vertex.
-  std::rotate(front.begin(), front.begin() + static_cast<std::ptrdiff_t>(start), front.end());
+  const auto first = static_cast<std::ptrdiff_t>(chosen[0]);
+  std::rotate(front.begin(), front.begin() + first, front.end());
+  const Vec3 normal = front[0].normal;
   const auto ring = static_cast<std::int32_t>(mesh.vertices.size()) - 1;
   mesh.vertices[0] /= ring;
   for (std::int32_t c = 0; c < ring; ++c) mesh.faces.push_back({0, c + 1, (c + 1) % ring + 1});
-  const Vec3 normal = front[0].normal;
   const auto upright = [&] {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       if (area_vector2(mesh, f).dot(normal) <= 0) return false;

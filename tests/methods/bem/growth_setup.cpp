@@ -1,8 +1,12 @@
 #include "tests/methods/bem/growth_setup.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
 
 #include "core/random.h"
+#include "geometry/measures.h"
 #include "methods/bem/fast_model.h"
 #include "methods/bem/growth_law.h"
 #include "tests/methods/cvd/bodies.h"
@@ -41,14 +45,32 @@ FractureModel model(const PointStress& stress, const std::vector<Start>& starts)
   return model;
 }
 
+FractureModel model_with_planes(const PointStress& stress, const std::vector<Start>& starts,
+                                const std::vector<Vec3>& planes) {
+  FractureModel model = test::model(stress, starts);
+  SurfaceStress surface = model.surface_stress({});
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    // Falling a little from start to start, so that the cracks keep the order given.
+    surface.stress[i] =
+        uniaxial(planes[i], 1e7 * (1 - 0.01 * static_cast<double>(i)))(Vec3::Zero());
+  }
+  model.surface_stress = [surface](std::span<const CrackSheet>) { return surface; };
+  return model;
+}
+
+PointStress hydrostatic(double tension) {
+  return [tension](const Vec3&) -> Mat3 { return tension * Mat3::Identity(); };
+}
+
 Propagation run(CutLinks& links, const FractureModel& model, const PropagationOptions& options,
-                int threads) {
+                std::vector<Crack> inherited, int threads) {
   Random random(1);
   StageTimer timer;
   Progress progress;
   Context context{random, timer, progress};
   context.threads = threads;
-  return propagate({}, links, StrengthField(StrengthOptions{}), model, options, context);
+  return propagate(std::move(inherited), links, StrengthField(StrengthOptions{}), model, options,
+                   context);
 }
 
 PropagationOptions long_run(double mesh_size, int max_cracks) {
@@ -71,6 +93,44 @@ std::vector<double> parts(const CutLinks& links) {
   for (const auto& [component, size] : sizes) shares.push_back(size / all);
   std::sort(shares.rbegin(), shares.rend());
   return shares;
+}
+
+std::string sheet_faults(const Crack& crack, double mesh_size) {
+  const TriangleMesh& mesh = crack.sheet.mesh;
+  std::map<std::array<std::int32_t, 2>, Vec3> sides;
+  double longest = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Vec3 normal = area_vector2(mesh, f);
+    if (!(normal.norm() > 0)) return "a triangle without area";
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
+      if (!sides.emplace(std::array{a, b}, normal.normalized()).second) return "no manifold";
+      longest = std::max(longest, (mesh.vertices[a] - mesh.vertices[b]).norm());
+    }
+  }
+  std::size_t boundary_edges = 0;
+  for (const auto& [side, normal] : sides) {
+    const auto other = sides.find({side[1], side[0]});
+    boundary_edges += other == sides.end();
+    // A crack may kink by 70 degrees, and the front goes on turning within an edge.
+    if (other != sides.end() && normal.dot(other->second) < -0.5) return "a fold";
+  }
+  const auto& loop = crack.sheet.boundary;
+  if (loop.size() != boundary_edges || loop.size() != crack.sheet.states.size()) {
+    return "another boundary than its edges";
+  }
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (!sides.contains({loop[i], loop[(i + 1) % loop.size()]})) return "a broken boundary";
+  }
+  if (std::set<std::int32_t>(loop.begin(), loop.end()).size() != loop.size()) {
+    return "a boundary that meets itself";
+  }
+  // Euler: one disc.
+  if (mesh.vertices.size() + mesh.faces.size() - (sides.size() + boundary_edges) / 2 != 1) {
+    return "no disc";
+  }
+  if (longest > 2 * mesh_size) return "an edge of " + std::to_string(longest);
+  return {};
 }
 
 std::string bytes(const Propagation& result) {
