@@ -15,10 +15,12 @@ struct ModesOptions {
   int dimension = 3;                  ///< 1: scalar displacement; 3: vectors. Elastic modes have 3.
   bool elastic = false;               ///< linear displacement in every tet, and its elastic energy
   Material material = {};             ///< elastic modes: stiffness and strength
+  double opening = 0.01;              ///< elastic modes: see elastic_energy in modes_problem.h
   double jump_threshold = 0.1;        ///< tets are joined across faces whose jump is smaller
   double iteration_tolerance = 1e-4;  ///< of the outer iteration: max |dc|
   int iterations = 10;                ///< of the outer iteration, at most
   double residual_tolerance = 1e-5;   ///< of each convex problem, relative, primal and dual
+  double gap_tolerance = 1e-4;        ///< of each mode's last convex problem: relative duality gap
 };
 
 /// The fracture modes of a tet mesh, in the order in which they were found. Displacements have unit
@@ -35,15 +37,24 @@ struct FractureModes {
   /// Per mode, the piece of each tet: 0, 1, ... in the order of their first tets.
   std::vector<std::vector<std::int32_t>> pieces;
   std::vector<std::int32_t> piece_counts;  ///< per mode
-  std::vector<int> iterations;             ///< outer iterations that each mode took
+  std::vector<int> iterations;             ///< per mode, outer iterations
+  std::vector<double> gaps;                ///< per mode, relative duality gap of the last of them
 };
 
 /// Sellan et al. 2023, "Breaking Good": see docs/methods/modes.md for the energy and the iteration.
-/// The motions that open no face (d translations; elastic: the 6 rigid motions) are not returned,
-/// and all modes are orthogonal to them and to each other under the mass matrix.
+/// The motions that open no face (d translations of each connected part; elastic: its 6 rigid
+/// motions) are not returned, and all modes are orthogonal to them and to each other under the mass
+/// matrix.
+///
+/// With one displacement per tet, a problem whose normalisation c and earlier modes each lie along
+/// one axis has a solution along the axis of c: the components of any other solution across it can
+/// be turned around (u_y -> -u_y changes neither energy nor constraints), and the mean of the two
+/// has no more energy. The modes of dimension 3 are therefore those of dimension 1, each along x, y
+/// and z in turn, and are computed that way.
+///
 /// Deterministic; the same bytes for any number of threads of the context.
-/// Throws InputError for options out of range and where the mesh has fewer than count + 1 tets or
-/// falls into parts that share no face; MethodFailure where a convex problem does not converge.
+/// Throws InputError for options out of range and where the mesh has too few tets for that many
+/// modes; MethodFailure where a convex problem does not converge.
 FractureModes compute_modes(const TetMesh& mesh, const ModesOptions& options, Context& context);
 
 /// The pieces of one displacement field ((d * tets) values): tets joined across the interior faces
