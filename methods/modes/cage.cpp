@@ -10,10 +10,9 @@
 #include "geometry/components.h"
 #include "geometry/isosurface.h"
 #include "geometry/measures.h"
-#include "geometry/repair_mesh.h"
+#include "geometry/remesh.h"
 #include "geometry/signed_distance_grid.h"
 #include "geometry/surface_distance.h"
-#include "methods/modes/isotropic_remesh.h"
 #include "methods/modes/tetrahedralise.h"
 
 namespace fracbench::modes {
@@ -25,14 +24,14 @@ constexpr double kSamplesPerEdge = 1.5;
 constexpr double kDistances[] = {0.25, 0.4, 0.6, 0.9, 1.4, 2};
 // Finer grids than this are no coarse cages.
 constexpr double kMostSamples = 3e7;
-// An offset cage may have fewer faces than asked for by this share.
-constexpr double kFewerFaces = 0.1;
 
 void check(const CageOptions& options) {
   const auto wrong = [](std::string_view name, auto value, std::string_view range) {
     throw InputError(fmt::format("cage: {} is {}, but must be {}", name, value, range));
   };
-  if (options.target_faces < 20) wrong("target_faces", options.target_faces, "at least 20");
+  if (options.target_faces < 64 || options.target_faces > 1000000) {
+    wrong("target_faces", options.target_faces, "between 64 and 1000000");
+  }
   if (options.target_tets < 0) wrong("target_tets", options.target_tets, "at least 0");
   if (!(options.radius_edge_ratio >= 1.1)) {
     wrong("radius_edge_ratio", options.radius_edge_ratio, "at least 1.1");
@@ -67,35 +66,25 @@ TriangleMesh offset_surface(const TriangleMesh& shape, double distance, double s
   return isosurface(grid, static_cast<float>(-distance));
 }
 
-/// The surface with well-shaped triangles, between 90 and 100 % of `target` of them; else with the
-/// number that was reached.
-TriangleMesh remeshed(const TriangleMesh& surface, std::int64_t target, Context& context) {
-  const double aim = (1 - kFewerFaces / 2) * static_cast<double>(target);
-  double edge = edge_length(area(surface), target);
-  TriangleMesh result;
-  for (int i = 0; i < 5; ++i) {
-    context.stop_if_asked();
-    result = isotropic_remesh(surface, edge);
-    const auto faces = static_cast<double>(result.faces.size());
-    if (std::abs(faces - aim) <= kFewerFaces / 2 * static_cast<double>(target)) break;
-    edge *= std::sqrt(faces / aim);
-  }
-  return result;
-}
-
 TriangleMesh offset_cage(const TriangleMesh& shape, const CageOptions& options, Context& context) {
   const std::string cuts = "a surface this coarse cuts into the shape or folds";
   std::string reason = cuts;
   // Of a surface that is smoother than the shape's.
   const double edge = edge_length(area(shape), options.target_faces);
   for (const double distance : kDistances) {
+    context.stop_if_asked();
     const TriangleMesh surface =
         offset_surface(shape, distance * edge, edge / kSamplesPerEdge, context.threads);
-    const TriangleMesh cage = remeshed(surface, options.target_faces, context);
-    const auto faces = std::ssize(cage.faces);
-    if (faces > options.target_faces ||
-        faces < (1 - kFewerFaces) * static_cast<double>(options.target_faces)) {
-      reason = fmt::format("remeshing ends at {} faces", faces);
+    TriangleMesh cage;
+    try {
+      // An isosurface has no features but the steps of its grid.
+      cage = remesh(surface, "the surface around the shape",
+                    {.triangles = static_cast<int>(options.target_faces),
+                     .feature_angle = 180,
+                     .threads = context.threads})
+                 .mesh;
+    } catch (const InputError& error) {
+      reason = error.what();
       continue;
     }
     reason = cuts;

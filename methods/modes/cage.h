@@ -16,7 +16,7 @@ enum class CageKind : std::uint8_t {
 
 struct CageOptions {
   CageKind kind = CageKind::automatic;
-  std::int64_t target_faces = 6000;  ///< of an offset cage, which has at most 10 % fewer
+  std::int64_t target_faces = 6000;  ///< of an offset cage, met within 10 %
   /// About as many tets (within 5 %), where the quality bound does not need more; 0: as few as it
   /// allows.
   std::int64_t target_tets = 0;

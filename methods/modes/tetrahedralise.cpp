@@ -1,7 +1,6 @@
 #include "methods/modes/tetrahedralise.h"
 
 #include <fmt/format.h>
-#include <tetgen.h>
 
 #include <cmath>
 #include <map>
@@ -9,11 +8,12 @@
 
 #include "core/error.h"
 #include "geometry/surface_distance.h"
+#include "methods/modes/tetgen_process.h"
 
 namespace fracbench::modes {
 namespace {
 
-// What TetGen throws: see terminatetetgen in tetgen.h.
+// What TetGen ends with: see terminatetetgen in tetgen.h.
 std::string reason_of(int code) {
   switch (code) {
     case 1:
@@ -28,63 +28,47 @@ std::string reason_of(int code) {
              "cage (cage = offset)";
     case 5:
       return "two of its faces are too close to each other; remesh it, or use an offset cage (cage "
-             "= "
-             "offset)";
+             "= offset)";
     case 10:
-      return "TetGen cannot read the surface; check it with fracbench's mesh report";
+      return "TetGen cannot read the surface; check that it is a solid";
+    case -1:
+      return "TetGen crashed; another number of cage faces usually avoids it";
     default:
       return fmt::format("TetGen's error {}", code);
   }
 }
 
-void fill_input(const TriangleMesh& surface, tetgenio& input) {
-  input.firstnumber = 0;
-  input.numberofpoints = static_cast<int>(surface.vertices.size());
-  input.pointlist = new REAL[3 * surface.vertices.size()];
-  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
-    for (int k = 0; k < 3; ++k) input.pointlist[3 * i + k] = surface.vertices[i][k];
+/// What TetGen printed, in one line; empty where that was nothing.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
   }
-  input.numberoffacets = static_cast<int>(surface.faces.size());
-  input.facetlist = new tetgenio::facet[surface.faces.size()];
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    tetgenio::facet& facet = input.facetlist[f];
-    tetgenio::init(&facet);
-    facet.numberofpolygons = 1;
-    facet.polygonlist = new tetgenio::polygon[1];
-    tetgenio::init(facet.polygonlist);
-    facet.polygonlist[0].numberofvertices = 3;
-    facet.polygonlist[0].vertexlist = new int[3];
-    for (int k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = surface.faces[f][k];
-  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  constexpr std::size_t most = 400;
+  if (text.size() > most) text = "..." + text.substr(text.size() - most);
+  return text.empty() ? "" : " (TetGen: " + text + ")";
 }
 
 /// Which of TetGen's regions are inside: a cavity's is not. One tet tells for its region, the one
 /// with the largest volume, whose centroid is far from rounding.
-std::vector<bool> tets_inside(const TriangleMesh& surface, const tetgenio& output) {
-  const auto point = [&](int i) { return Eigen::Map<const Vec3>(output.pointlist + 3 * i); };
-  const auto region = [&](int t) {
-    return output.numberoftetrahedronattributes > 0
-               ? output.tetrahedronattributelist[t * output.numberoftetrahedronattributes]
-               : 0.0;
-  };
-  std::map<double, std::pair<double, int>> largest;  // by region: volume, tet
-  for (int t = 0; t < output.numberoftetrahedra; ++t) {
-    const int* c = output.tetrahedronlist + output.numberofcorners * t;
-    const double volume = std::abs((point(c[1]) - point(c[0]))
-                                       .cross(point(c[2]) - point(c[0]))
-                                       .dot(point(c[3]) - point(c[0])));
-    auto& best = largest.try_emplace(region(t), 0.0, t).first->second;
+std::map<double, bool> regions_inside(const TriangleMesh& surface, const TetgenOutput& output) {
+  const auto corner = [&](std::size_t t, int k) { return output.vertices[output.tets[t][k]]; };
+  std::map<double, std::pair<double, std::size_t>> largest;  // by region: volume, tet
+  for (std::size_t t = 0; t < output.tets.size(); ++t) {
+    const Vec3 a = corner(t, 0);
+    const double volume =
+        std::abs((corner(t, 1) - a).cross(corner(t, 2) - a).dot(corner(t, 3) - a));
+    auto& best = largest.try_emplace(output.regions[t], 0.0, t).first->second;
     if (volume > best.first) best = {volume, t};
   }
   const SurfaceDistance distance(surface);
   std::map<double, bool> inside;
-  for (const auto& [which, best] : largest) {
-    const int* c = output.tetrahedronlist + output.numberofcorners * best.second;
-    inside[which] = distance.inside((point(c[0]) + point(c[1]) + point(c[2]) + point(c[3])) / 4);
+  for (const auto& [region, best] : largest) {
+    const std::size_t t = best.second;
+    inside[region] =
+        distance.inside((corner(t, 0) + corner(t, 1) + corner(t, 2) + corner(t, 3)) / 4);
   }
-  std::vector<bool> result(output.numberoftetrahedra);
-  for (int t = 0; t < output.numberoftetrahedra; ++t) result[t] = inside[region(t)];
-  return result;
+  return inside;
 }
 
 }  // namespace
@@ -95,34 +79,31 @@ Tets tetrahedralise(const TriangleMesh& surface, const TetrahedraliseOptions& op
   std::string switches =
       fmt::format("pAQq{:.6f}/{:.6f}", options.radius_edge_ratio, options.minimum_dihedral);
   if (options.largest_volume > 0) switches += fmt::format("a{:.15f}", options.largest_volume);
-  tetgenio input, output;
-  fill_input(surface, input);
-  try {
-    tetrahedralize(switches.data(), &input, &output);
-  } catch (const int code) {
-    throw MethodFailure(fmt::format("{}: tetrahedralisation failed: {}", name, reason_of(code)));
+  const TetgenOutput output = run_tetgen(surface, switches);
+  if (output.code != 0) {
+    throw MethodFailure(fmt::format("{}: tetrahedralisation failed: {}{}", name,
+                                    reason_of(output.code), one_line(output.messages)));
   }
-  const std::vector<bool> inside = tets_inside(surface, output);
+  std::map<double, bool> inside = regions_inside(surface, output);
 
   Tets result;
-  std::vector<std::int32_t> index(output.numberofpoints, -1);
-  for (int t = 0; t < output.numberoftetrahedra; ++t) {
-    if (!inside[t]) continue;
-    Tet tet;
-    for (int k = 0; k < 4; ++k) {
-      const int old = output.tetrahedronlist[output.numberofcorners * t + k];
-      if (index[old] < 0) {
-        index[old] = static_cast<std::int32_t>(result.vertices.size());
-        result.vertices.emplace_back(Eigen::Map<const Vec3>(output.pointlist + 3 * old));
+  std::vector<std::int32_t> index(output.vertices.size(), -1);
+  for (std::size_t t = 0; t < output.tets.size(); ++t) {
+    if (!inside[output.regions[t]]) continue;
+    Tet tet = output.tets[t];
+    for (std::int32_t& v : tet) {
+      if (index[v] < 0) {
+        index[v] = static_cast<std::int32_t>(result.vertices.size());
+        result.vertices.push_back(output.vertices[v]);
       }
-      tet[k] = index[old];
+      v = index[v];
     }
     result.tets.push_back(tet);
   }
   if (result.tets.empty()) {
     throw MethodFailure(
-        fmt::format("{}: tetrahedralisation gave no tets inside the surface; check "
-                    "that it is closed and turned outwards",
+        fmt::format("{}: tetrahedralisation gave no tets inside the surface; check that it is "
+                    "closed and turned outwards",
                     name));
   }
   return result;

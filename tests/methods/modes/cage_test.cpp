@@ -28,8 +28,8 @@ TEST_F(Cage, EnclosesTheShapeWithAsManyFacesAsAskedFor) {
     for (const std::int64_t faces : {800, 2500}) {
       const TriangleMesh cage =
           build_cage(shape, {.kind = CageKind::offset, .target_faces = faces}, context);
-      EXPECT_LE(std::ssize(cage.faces), faces);
-      EXPECT_GE(std::ssize(cage.faces), 9 * faces / 10);
+      EXPECT_NEAR(static_cast<double>(cage.faces.size()), static_cast<double>(faces),
+                  0.1 * static_cast<double>(faces));
       EXPECT_TRUE(check_mesh(cage).is_solid());
       EXPECT_TRUE(encloses(cage, shape));
       EXPECT_LT(volume(cage), 2.5 * volume(shape));
@@ -39,9 +39,9 @@ TEST_F(Cage, EnclosesTheShapeWithAsManyFacesAsAskedFor) {
 
 TEST_F(Cage, IsTheShapeItselfWhereThatIsSimpleEnough) {
   const TriangleMesh shape = notched_bar();
-  EXPECT_EQ(build_cage(shape, {.target_faces = 28}, context).faces, shape.faces);
-  const TriangleMesh other = build_cage(shape, {.target_faces = 27 * 20}, context);
-  EXPECT_EQ(other.faces, shape.faces);
+  EXPECT_EQ(build_cage(shape, {.target_faces = 64}, context).faces, shape.faces);
+  EXPECT_NE(build_cage(shape, {.kind = CageKind::offset, .target_faces = 600}, context).faces,
+            shape.faces);
 }
 
 TEST_F(Cage, HasAShellForEveryPartAndCavity) {
