@@ -15,6 +15,7 @@ using Action = std::function<ExitCode(std::stop_token)>;
 
 /// Each adds one subcommand; when the user chooses it, `chosen` becomes what it does.
 void add_run_command(CLI::App& app, Action& chosen);
+void add_prepare_command(CLI::App& app, Action& chosen);
 void add_report_command(CLI::App& app, Action& chosen);
 void add_compare_command(CLI::App& app, Action& chosen);
 void add_validate_command(CLI::App& app, Action& chosen);

@@ -56,6 +56,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
 
   Action chosen;
   add_run_command(app, chosen);
+  add_prepare_command(app, chosen);
   add_report_command(app, chosen);
   add_compare_command(app, chosen);
   add_validate_command(app, chosen);

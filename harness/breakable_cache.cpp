@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/digest.h"
+#include "harness/learning_set.h"
 
 namespace fracbench {
 
@@ -36,8 +37,13 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
   Prepared prepared;
   prepared.target = std::make_shared<Target>(
       Target{.name = shape.shape.name, .mesh = shape.shape.mesh, .material = material});
+  LearningData learning;
+  if (method.info.learns) {
+    learning = load_learning_data(plan_.learning_folder, shape.label, shape.learning_digest);
+  }
   try {
-    prepared.breakable = method.method->prepare(*prepared.target, {}, method.options, context);
+    prepared.breakable =
+        method.method->prepare(*prepared.target, learning, method.options, context);
   } catch (const MethodFailure& failure) {
     prepared.failure = failure.what();
   }

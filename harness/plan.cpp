@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "core/text.h"
 #include "harness/build_info.h"
+#include "harness/learning_plan.h"
 
 namespace fracbench {
 
@@ -133,6 +134,7 @@ std::string cell_key(const KeyParts& parts, const Cell& cell) {
   digest.add(static_cast<std::uint64_t>(parts.suite.threads_per_cell));
   digest.add(cell.seed);
   digest.add(cell.prepare_seed);
+  if (parts.method.info.learns) digest.add(std::string_view(parts.shape.learning_digest));
   return digest.hex();
 }
 
@@ -179,6 +181,33 @@ std::vector<Cell> make_cells(const Plan& plan, const Shard& shard) {
   return cells;
 }
 
+/// Says of each shape which learning data its methods get, where one of them learns.
+void add_learning_digests(Plan& plan, const Catalog& catalog) {
+  const auto learner = std::ranges::find_if(
+      plan.methods, [](const PlannedMethod& method) { return method.info.learns; });
+  if (learner == plan.methods.end()) return;
+  if (!plan.suite.learning) {
+    throw InputError(
+        fmt::format("{}: method '{}' learns, and the suite has no table [learning], which says "
+                    "from whose fractures; see docs/learning-data.md",
+                    plan.suite.name, learner->label));
+  }
+  const std::vector<std::string>& covered = plan.suite.learning->shapes;
+  std::vector<std::string> labels;
+  for (const PlannedShape& shape : plan.shapes) {
+    labels.push_back(shape.label);
+    if (covered.empty() || std::ranges::find(covered, shape.label) != covered.end()) continue;
+    throw InputError(
+        fmt::format("{}: method '{}' learns, and there is no learning data for shape '{}'; add it "
+                    "to the shapes of [learning]",
+                    plan.suite.name, learner->label, shape.label));
+  }
+  const Plan learning = make_learning_plan(plan.suite, catalog, labels);
+  for (std::size_t s = 0; s < plan.shapes.size(); ++s) {
+    plan.shapes[s].learning_digest = learning_digest(learning, s, plan.suite.learning->split);
+  }
+}
+
 }  // namespace
 
 Shard parse_shard(std::string_view text) {
@@ -217,6 +246,7 @@ Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& op
     }
   }
   plan.suite_cells = scenes * suite.methods.size() * static_cast<std::size_t>(suite.repeats);
+  add_learning_digests(plan, catalog);
   plan.cells = make_cells(plan, options.shard);
   return plan;
 }

@@ -38,6 +38,7 @@ struct PlannedShape {
   Shape shape;
   std::string digest;  ///< of the mesh, SHA-256
   std::vector<PlannedScenario> scenarios;
+  std::string learning_digest = {};  ///< of its learning data; empty where no method learns
 };
 
 struct PlannedMethod {
@@ -68,13 +69,16 @@ struct Plan {
   std::vector<PlannedMethod> methods;
   std::vector<Cell> cells;
   std::size_t suite_cells = 0;  ///< of the whole suite, before anything was left out
+  /// Where methods that learn find their data; no part of what determines results.
+  std::filesystem::path learning_folder = {};
 };
 
 /// Version of the record's layout; part of every key.
 inline constexpr int kSchemaVersion = 1;
 
 /// Loads the shapes and derives scenes, seeds and keys. Throws InputError for shapes that are not
-/// there (all of them in one message) and for names in `options` that the suite does not have.
+/// there (all of them in one message), for names in `options` that the suite does not have, and for
+/// methods that learn where the suite does not say from what.
 Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& options = {});
 
 }  // namespace fracbench

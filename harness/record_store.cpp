@@ -39,7 +39,8 @@ void require_results_folder(const fs::path& folder) {
   for (const auto& item : fs::directory_iterator(folder)) {
     const std::string name = item.path().filename().string();
     // What the program itself puts there, `report` included.
-    constexpr std::array kOwn = {"records", "claims", "shapes", "report", "suite.json.part"};
+    constexpr std::array kOwn = {"records",  "claims",        "shapes",         "report",
+                                 "learning", "learning.json", "suite.json.part"};
     if (std::ranges::find(kOwn, name) != kOwn.end()) continue;
     throw InputError(
         fmt::format("{}: holds '{}', which does not belong to a results folder; choose an empty or "
@@ -49,14 +50,6 @@ void require_results_folder(const fs::path& folder) {
 }
 
 fs::path part_of(const fs::path& file) { return file.string() + std::string(kPart); }
-
-/// The claim of a name, waited for: for files that are written in no time.
-Claim wait_for_claim(const RecordStore& store, std::string_view name) {
-  while (true) {
-    if (auto claim = store.claim(name)) return std::move(*claim);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
 
 }  // namespace
 
@@ -88,6 +81,13 @@ std::optional<Claim> RecordStore::claim(std::string_view key) const {
   return Claim::try_take(folder_ / "claims" / key);
 }
 
+Claim RecordStore::wait_for_claim(std::string_view name) const {
+  while (true) {
+    if (auto taken = claim(name)) return std::move(*taken);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 bool RecordStore::contains(std::string_view key) const { return fs::exists(record_file(key)); }
 
 Record RecordStore::read(std::string_view key) const {
@@ -116,7 +116,7 @@ fs::path RecordStore::set_aside(const Claim&, std::string_view key, std::string_
 void RecordStore::write_shape(const std::string& digest, const TriangleMesh& mesh) const {
   const fs::path file = folder_ / "shapes" / (digest + ".h5");
   if (fs::exists(file)) return;
-  const Claim claim = wait_for_claim(*this, "shape-" + digest);
+  const Claim claim = wait_for_claim("shape-" + digest);
   if (fs::exists(file)) return;
   DataTree tree;
   put_mesh(tree, "mesh", mesh);
@@ -133,7 +133,7 @@ TriangleMesh RecordStore::read_shape(const std::string& digest) const {
 
 void RecordStore::bind_suite(const nlohmann::ordered_json& values, std::string_view summary,
                              std::size_t cells) const {
-  const Claim claim = wait_for_claim(*this, "suite");
+  const Claim claim = wait_for_claim("suite");
   const fs::path file = folder_ / "suite.json";
   if (fs::exists(file)) {
     const std::vector<std::string> differences =

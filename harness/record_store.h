@@ -33,6 +33,9 @@ class RecordStore {
   /// The right to make the record of a key; none while another holds it.
   std::optional<Claim> claim(std::string_view key) const;
 
+  /// The same, waited for: for what is made in no time.
+  Claim wait_for_claim(std::string_view name) const;
+
   /// Whether there is a file for this key; says nothing of what is in it.
   bool contains(std::string_view key) const;
 

@@ -252,6 +252,7 @@ class Run {
     progress.done = result_.recorded();
     progress.found = result_.found;
     progress.failed = progress.done - result_.measured();
+    progress.unbroken = result_.count(CellStatus::unbroken);
     progress.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     for (const auto& [cell, text] : running_) progress.running.push_back(text);
     double left = 0;

@@ -22,6 +22,7 @@ struct RunProgress {
   std::size_t done = 0;                ///< records that are there, new or found
   std::size_t found = 0;               ///< of them: were there before
   std::size_t failed = 0;              ///< of them: neither ok nor unbroken
+  std::size_t unbroken = 0;            ///< of them: the target stayed whole
   double seconds = 0;                  ///< since the start
   std::optional<double> seconds_left;  ///< once a cell of each kind has been measured
   std::vector<std::string> running;    ///< "pot single-3 cvd: cut 40 %"

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace fracbench {
 
@@ -37,6 +39,31 @@ void check_entries(const Entries& entries, std::string_view kind, std::string_vi
   }
 }
 
+nlohmann::ordered_json learning_json(const SuiteLearning& learning) {
+  return {{"method", learning.method.name},     {"options", learning.method.options.to_json()},
+          {"family", learning.scenario.family}, {"scenario", learning.scenario.options.to_json()},
+          {"shapes", learning.shapes},          {"seed", learning.seed},
+          {"threads", learning.threads},        {"train", learning.split.train},
+          {"test", learning.split.test},        {"least", learning.split.needed()}};
+}
+
+void check_learning(const Suite& suite, std::string_view where) {
+  const SuiteLearning& learning = *suite.learning;
+  std::vector<std::string> known;
+  for (const SuiteShape& shape : suite.shapes) known.push_back(shape.label);
+  for (const std::string& label : learning.shapes) {
+    if (std::ranges::find(known, label) == known.end()) {
+      throw InputError(fmt::format("{}: learning: the suite has no shape '{}'{}", where, label,
+                                   did_you_mean(label, known)));
+    }
+  }
+  if (learning.split.needed() > learning.split.wanted()) {
+    throw InputError(
+        fmt::format("{}: learning: least is {}, more than the {} of train and test together", where,
+                    learning.split.least, learning.split.wanted()));
+  }
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Suite& suite) {
@@ -60,6 +87,7 @@ nlohmann::ordered_json to_json(const Suite& suite) {
   for (const SuiteMethod& method : suite.methods) {
     methods[method.label] = {{"name", method.name}, {"options", method.options.to_json()}};
   }
+  if (suite.learning) json["learning"] = learning_json(*suite.learning);
   return json;
 }
 
@@ -108,6 +136,42 @@ const OptionsSchema& suite_schema() {
        .summary = "runs that are thrown away each time a body was prepared",
        .minimum = 0,
        .maximum = 1000},
+  };
+  return schema;
+}
+
+const OptionsSchema& learning_schema() {
+  constexpr double kMost = 1e6;
+  static const OptionsSchema schema = {
+      {.name = "train",
+       .fallback = std::int64_t{LearningSplit{}.train},
+       .unit = "",
+       .summary = "collisions of each shape to learn from, of those that broke it",
+       .minimum = 1,
+       .maximum = kMost},
+      {.name = "test",
+       .fallback = std::int64_t{LearningSplit{}.test},
+       .unit = "",
+       .summary = "collisions of each shape that are kept for tests",
+       .minimum = 0,
+       .maximum = kMost},
+      {.name = "least",
+       .fallback = std::int64_t{LearningSplit{}.least},
+       .unit = "",
+       .summary = "how few broken ones will do, divided in proportion; 0: train and test together",
+       .minimum = 0,
+       .maximum = 2 * kMost},
+      {.name = "threads",
+       .fallback = std::int64_t{1},
+       .unit = "threads",
+       .summary = "that one collision may use",
+       .minimum = 1,
+       .maximum = 1024},
+      {.name = "seed",
+       .fallback = std::int64_t{0},
+       .unit = "",
+       .summary = "of the collisions; 0: derived from the suite's",
+       .minimum = 0},
   };
   return schema;
 }
@@ -168,6 +232,8 @@ void check_labels(const Suite& suite, std::string_view where) {
                                  where, suite.name));
   }
   check_entries(suite.shapes, "shape", where);
+  if (suite.learning) check_learning(suite, where);
+  if (suite.learning && suite.scenarios.empty() && suite.methods.empty()) return;
   check_entries(suite.scenarios, "scenario", where);
   check_entries(suite.methods, "method", where);
 }

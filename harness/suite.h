@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,28 @@ struct SuiteMethod {
   CellLimits limits = {};  ///< no part of the suite's identity: see docs/records.md
 };
 
+/// How the collisions that broke are divided, for each shape.
+struct LearningSplit {
+  int train = 200;
+  int test = 50;
+  /// How few of them will do; fewer than train + test are divided in the same proportion. 0: all.
+  int least = 0;
+
+  int wanted() const { return train + test; }
+  int needed() const { return least > 0 ? least : wanted(); }
+};
+
+/// The collisions that methods learn from: a method that breaks the suite's shapes in scenes of one
+/// family. See docs/learning-data.md.
+struct SuiteLearning {
+  SuiteMethod method;
+  SuiteScenario scenario;
+  std::vector<std::string> shapes;  ///< labels of those that there is data for; empty: all
+  std::uint64_t seed = 0;           ///< 0: derived from the suite's
+  int threads = 1;                  ///< that a collision may use
+  LearningSplit split;
+};
+
 /// What is to be measured: every shape in every scenario with every method, each `repeats` times.
 /// Complete and checked: every option has its value.
 struct Suite {
@@ -53,6 +76,7 @@ struct Suite {
   std::vector<SuiteShape> shapes;
   std::vector<SuiteScenario> scenarios;
   std::vector<SuiteMethod> methods;
+  std::optional<SuiteLearning> learning = {};
 };
 
 /// Everything that determines the suite's results, defaults included; the summary, the limits and
@@ -70,13 +94,17 @@ bool names_a_file(std::string_view shape);
 /// ranges.
 const OptionsSchema& suite_schema();
 const OptionsSchema& shape_schema();
+/// The values at the top of the table [learning].
+const OptionsSchema& learning_schema();
 /// The members of CellLimits, which stand at the suite's top or with a method.
 const OptionsSchema& limits_schema();
 /// Those of `limits` that `given`, checked against the schema, has values for are replaced.
 CellLimits with_limits(CellLimits limits, const OptionMap& given, std::string_view where);
 
-/// Throws InputError for a suite without shapes, scenarios or methods, and for labels that are
-/// used twice or hold anything but letters, digits and ". _ + -", and for a name that is a path.
+/// Throws InputError for a suite without shapes, scenarios or methods (one that makes learning data
+/// may have neither scenarios nor methods), for labels that are used twice or hold anything but
+/// letters, digits and ". _ + -", for a name that is a path, and for learning data of shapes that
+/// the suite does not have.
 void check_labels(const Suite& suite, std::string_view where);
 
 }  // namespace fracbench

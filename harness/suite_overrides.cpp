@@ -17,8 +17,9 @@ constexpr std::string_view kWhere = "--set";
 
 const std::vector<std::string>& suite_keys() {
   static const std::vector<std::string> keys = {
-      "seed",      "repeats",           "threads_per_cell", "warm_up",  "timeout_s",
-      "memory_mb", "prepare_timeout_s", "method",           "scenario", "shape"};
+      "seed",      "repeats",   "threads_per_cell",  "warm_up",
+      "timeout_s", "memory_mb", "prepare_timeout_s", "method",
+      "scenario",  "shape",     "learning"};
   return keys;
 }
 
@@ -76,6 +77,33 @@ void set_shape_value(SuiteShape& shape, std::string_view option, std::string_vie
   }
 }
 
+/// `key` is what follows "learning.".
+void set_learning_value(SuiteLearning& learning, std::string_view key, std::string_view text,
+                        const Catalog& catalog) {
+  const std::string where = fmt::format("{} learning", kWhere);
+  const std::size_t dot = key.find('.');
+  const std::string_view part = key.substr(0, dot);
+  if (key == "count" || (part == "scenario" && dot != key.npos)) {
+    const OptionsSchema schema = catalog.family(learning.scenario.family, where).options();
+    learning.scenario.options = replaced(learning.scenario.options, schema,
+                                         dot == key.npos ? key : key.substr(dot + 1), text, where);
+  } else if (part == "options" && dot != key.npos) {
+    const OptionsSchema schema = catalog.method(learning.method.name, where).options();
+    learning.method.options =
+        replaced(learning.method.options, schema, key.substr(dot + 1), text, where);
+  } else if (is_limit(key)) {
+    set_limit(learning.method, key, text, where);
+  } else {
+    const OptionValue value = parse_option(learning_schema(), key, text, where);
+    const std::int64_t number = std::get<std::int64_t>(value);
+    if (key == "seed") learning.seed = static_cast<std::uint64_t>(number);
+    if (key == "threads") learning.threads = static_cast<int>(number);
+    if (key == "train") learning.split.train = static_cast<int>(number);
+    if (key == "test") learning.split.test = static_cast<int>(number);
+    if (key == "least") learning.split.least = static_cast<int>(number);
+  }
+}
+
 }  // namespace
 
 Suite with_override(Suite suite, std::string_view assignment, const Catalog& catalog) {
@@ -92,6 +120,16 @@ Suite with_override(Suite suite, std::string_view assignment, const Catalog& cat
   }
   if (is_limit(key)) {
     for (SuiteMethod& method : suite.methods) set_limit(method, key, text, kWhere);
+    if (suite.learning) set_limit(suite.learning->method, key, text, kWhere);
+    return suite;
+  }
+  constexpr std::string_view kLearning = "learning.";
+  if (key.starts_with(kLearning)) {
+    if (!suite.learning) {
+      throw InputError(fmt::format("{} {}: the suite has no table [learning]", kWhere, assignment));
+    }
+    set_learning_value(*suite.learning, key.substr(kLearning.size()), text, catalog);
+    check_labels(suite, kWhere);
     return suite;
   }
   // A label may hold dots, the names of kinds and options never do.

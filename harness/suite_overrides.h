@@ -11,6 +11,7 @@ namespace fracbench {
 ///   seed, repeats, threads_per_cell, warm_up
 ///   timeout_s, prepare_timeout_s, memory_mb, for all methods or as method.LABEL.timeout_s
 ///   method.LABEL.OPTION, scenario.LABEL.OPTION, shape.LABEL.OPTION
+///   learning.KEY, learning.options.OPTION (of its method), learning.scenario.OPTION
 /// where LABEL may be * for all of them. Throws InputError, naming the nearest valid key.
 Suite with_override(Suite suite, std::string_view assignment, const Catalog& catalog);
 

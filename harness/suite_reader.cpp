@@ -187,6 +187,75 @@ std::vector<SuiteMethod> read_methods(const Entry& top, const Catalog& catalog) 
   return methods;
 }
 
+std::vector<std::string> read_names(const Entry& entry, std::string_view key) {
+  std::vector<std::string> names;
+  const toml::node* node = entry.table.get(key);
+  if (!node) return names;
+  const toml::array* array = node->as_array();
+  if (array) {
+    for (const toml::node& item : *array) {
+      if (const auto* name = item.as_string()) names.push_back(name->get());
+    }
+  }
+  if (!array || names.size() != array->size()) {
+    throw InputError(fmt::format("{}: '{}' must be a list of names", entry.where(*node), key));
+  }
+  return names;
+}
+
+/// The options in the table `key` of another table, which may be missing.
+Options read_part(const Entry& entry, std::string_view key, const std::string& whose,
+                  const OptionsSchema& schema) {
+  const toml::node* node = entry.table.get(key);
+  if (!node) return Options(schema, {}, entry.where());
+  const toml::table* table = node->as_table();
+  if (!table) {
+    throw InputError(
+        fmt::format("{}: '{}' must be a table: write [learning.{}]", entry.where(*node), key, key));
+  }
+  return read_options({*table, entry.source, whose}, schema, {});
+}
+
+std::optional<SuiteLearning> read_learning(const Entry& top, const Catalog& catalog) {
+  const toml::node* node = top.table.get("learning");
+  if (!node) return std::nullopt;
+  const toml::table* table = node->as_table();
+  if (!table) {
+    throw InputError(
+        fmt::format("{}: 'learning' must be one table: write [learning]", top.where(*node)));
+  }
+  const Entry entry{*table, top.source, "learning"};
+  const std::string name = require_text(entry, "method", "bem");
+  const std::string family = require_text(entry, "family", "single");
+  const Method& method = catalog.method(name, entry.where(*table->get("method")));
+  const ScenarioFamily& known = catalog.family(family, entry.where(*table->get("family")));
+  const Options values =
+      read_options(entry, learning_schema(),
+                   and_limits({"method", "family", "shapes", "count", "options", "scenario"}));
+  Options scenario =
+      read_part(entry, "scenario", fmt::format("learning: scenario '{}'", family), known.options());
+  if (const toml::node* count = table->get("count")) {
+    OptionMap all = scenario.values();
+    all["count"] = option_value(*count, "count", entry.where(*count));
+    scenario = Options(known.options(), all, entry.where(*count));
+  }
+  CellLimits limits = with_limits({}, read_limits(top), top.where());
+  limits = with_limits(limits, read_limits(entry), entry.where());
+  return SuiteLearning{
+      .method = {.label = name,
+                 .name = name,
+                 .options = read_part(entry, "options", fmt::format("learning: method '{}'", name),
+                                      method.options()),
+                 .limits = limits},
+      .scenario = {.label = family, .family = family, .options = scenario},
+      .shapes = read_names(entry, "shapes"),
+      .seed = static_cast<std::uint64_t>(values.integer("seed")),
+      .threads = static_cast<int>(values.integer("threads")),
+      .split = {.train = static_cast<int>(values.integer("train")),
+                .test = static_cast<int>(values.integer("test")),
+                .least = static_cast<int>(values.integer("least"))}};
+}
+
 }  // namespace
 
 Suite parse_suite(std::string_view text, const std::filesystem::path& source,
@@ -199,8 +268,8 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
         fmt::format("{}:{}: {}", source.string(), error.source().begin.line, error.description()));
   }
   const Entry top{table, source, ""};
-  const Options values =
-      read_options(top, suite_schema(), and_limits({"shape", "shapes", "scenario", "method"}));
+  const Options values = read_options(
+      top, suite_schema(), and_limits({"shape", "shapes", "scenario", "method", "learning"}));
   Suite suite;
   suite.folder = source.parent_path();
   suite.name = values.text("name").empty() ? source.stem().string() : values.text("name");
@@ -212,6 +281,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   suite.shapes = read_shapes(top);
   suite.scenarios = read_scenarios(top, catalog);
   suite.methods = read_methods(top, catalog);
+  suite.learning = read_learning(top, catalog);
   check_labels(suite, source.string());
   return suite;
 }

@@ -26,10 +26,11 @@ std::string shortened(const std::string& text, int columns) {
 
 }  // namespace
 
-TerminalProgress::TerminalProgress(std::ostream& out, bool terminal, int columns)
+TerminalProgress::TerminalProgress(std::ostream& out, bool terminal, int columns, Describe describe)
     : out_(out),
       terminal_(terminal),
       columns_(columns),
+      describe_(std::move(describe)),
       last_line_(std::chrono::steady_clock::now()) {}
 
 TerminalProgress::~TerminalProgress() {
@@ -37,9 +38,10 @@ TerminalProgress::~TerminalProgress() {
 }
 
 void TerminalProgress::update(const RunProgress& progress) {
+  const auto text = [&] { return describe_ ? describe_(progress) : describe(progress); };
   if (terminal_) {
     // One column stays free: a full line would make some terminals wrap.
-    out_ << "\r" << shortened(describe(progress), columns_ - 1) << "\x1b[K" << std::flush;
+    out_ << "\r" << shortened(text(), columns_ - 1) << "\x1b[K" << std::flush;
     line_shown_ = true;
     return;
   }
@@ -48,7 +50,7 @@ void TerminalProgress::update(const RunProgress& progress) {
   if (!finished && now - last_line_ < kLineInterval) return;
   last_line_ = now;
   last_done_ = progress.done;
-  out_ << describe(progress) << "\n" << std::flush;
+  out_ << text() << "\n" << std::flush;
 }
 
 void TerminalProgress::message(std::string_view text) {

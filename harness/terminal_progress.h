@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -12,8 +13,10 @@ namespace fracbench {
 /// Shows how far a run is: one line that changes on a terminal, else a line every few seconds.
 class TerminalProgress {
  public:
-  /// `terminal`: whether `out` is one; `columns`: how wide.
-  TerminalProgress(std::ostream& out, bool terminal, int columns = 80);
+  using Describe = std::function<std::string(const RunProgress&)>;
+
+  /// `terminal`: whether `out` is one; `columns`: how wide; `describe`: what the line says.
+  TerminalProgress(std::ostream& out, bool terminal, int columns = 80, Describe describe = {});
   /// Leaves the line.
   ~TerminalProgress();
   TerminalProgress(const TerminalProgress&) = delete;
@@ -29,6 +32,7 @@ class TerminalProgress {
   std::ostream& out_;
   bool terminal_;
   int columns_;
+  Describe describe_;
   bool line_shown_ = false;
   std::size_t last_done_ = 0;
   std::chrono::steady_clock::time_point last_line_;

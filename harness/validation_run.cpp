@@ -70,6 +70,7 @@ class CaseProgress final : public Progress {
                          .done = run_.done,
                          .found = 0,
                          .failed = failed_,
+                         .unbroken = 0,
                          .seconds = seconds_since(begin_),
                          .seconds_left = left_.seconds(),
                          .running = {}};

@@ -43,6 +43,8 @@ std::string encode_job(const Plan& plan, const Cell& cell, std::uint64_t memory)
   tree.put("shape/name", std::string_view(shape.shape.name));
   tree.put("shape/notes", std::span<const std::string>(shape.shape.notes));
   put_mesh(tree, "shape/mesh", shape.shape.mesh);
+  tree.put("shape/learning_digest", std::string_view(shape.learning_digest));
+  tree.put("learning_folder", std::string_view(plan.learning_folder.string()));
   tree.put("method/label", std::string_view(method.label));
   tree.put("method/name", std::string_view(method.info.name));
   tree.put("method/options", std::string_view(method.options.to_json().dump()));
@@ -56,12 +58,14 @@ WorkerJob decode_job(std::string_view bytes, const Catalog& catalog) {
   job.plan.suite.name = tree.text("suite/name");
   job.plan.suite.threads_per_cell = static_cast<int>(tree.integer("suite/threads_per_cell"));
   job.plan.suite.warm_up = static_cast<int>(tree.integer("suite/warm_up"));
+  job.plan.learning_folder = tree.text("learning_folder");
   job.plan.shapes.push_back({.label = tree.text("shape/label"),
                              .shape = {.name = tree.text("shape/name"),
                                        .mesh = get_mesh(tree, "shape/mesh"),
                                        .notes = tree.texts("shape/notes")},
                              .digest = tree.text("shape/digest"),
-                             .scenarios = {}});
+                             .scenarios = {},
+                             .learning_digest = tree.text("shape/learning_digest")});
   const std::string name = tree.text("method/name");
   const Method& method = catalog.method(name, "worker");
   try {

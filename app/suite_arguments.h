@@ -1,0 +1,54 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "harness/catalog.h"
+#include "harness/learning_data.h"
+#include "harness/plan.h"
+#include "harness/suite.h"
+#include "harness/workers/worker_pool.h"
+
+namespace fracbench {
+
+/// What `run` and `prepare` are both told: a suite, changes to it, and which part of it.
+struct SuiteArguments {
+  std::string suite;
+  std::filesystem::path out;
+  std::filesystem::path learning;  ///< folder of learning data; empty: below `out`
+  std::vector<std::string> settings;
+  PlanOptions plan;
+  int jobs = 1;
+  bool dry_run = false;
+  bool in_process = false;
+  bool as_json = false;
+
+  std::filesystem::path learning_folder() const;
+};
+
+void add_suite_options(CLI::App& command, SuiteArguments& arguments);
+
+/// Reads the suite with all changes, and fills in the results folder. Throws InputError.
+Suite read_suite(SuiteArguments& arguments, const Catalog& catalog);
+
+/// The processes in which cells are measured, unless the user wants them in this one.
+class CellWorkers {
+ public:
+  CellWorkers(const Plan& plan, const Catalog& catalog, const SuiteArguments& arguments);
+  /// The cells of a run with these options are measured here; to be kept until it has ended.
+  void measure_for(RunOptions& options);
+
+ private:
+  std::optional<WorkerPool> pool_;
+};
+
+/// Makes the learning data of the suite for the shapes that were asked for, with the progress on
+/// standard error, and says there what came of it.
+LearningResult make_learning_data(const Suite& suite, const Catalog& catalog,
+                                  const SuiteArguments& arguments, const std::stop_token& stop);
+
+}  // namespace fracbench

@@ -1,0 +1,105 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include "core/random.h"
+#include "harness/data_file.h"
+#include "harness/learning_data.h"
+#include "harness/learning_plan.h"
+#include "harness/record_store.h"
+#include "harness/suite_overrides.h"
+#include "harness/suite_reader.h"
+#include "learning_world.h"
+#include "temporary_folder.h"
+
+namespace fracbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolderVariable = "FRACBENCH_LEARNING_KILL_TEST_FOLDER";
+constexpr int kKills = 10;
+
+LearningResult make(const fs::path& folder, int jobs) {
+  const LearningWorld world;
+  const Catalog catalog = world.catalog();
+  const Suite suite = with_override(parse_suite(learning_suite_text(), "toys.toml", catalog),
+                                    "learning.options.wait=0.004", catalog);
+  return make_learning_data(make_learning_plan(suite, catalog), suite.learning->split, catalog,
+                            {.folder = folder, .jobs = jobs});
+}
+
+std::string index_bytes(const fs::path& folder) {
+  std::ifstream stream(folder / "learning.json", std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::map<std::string, DataTree::Array> results_of(const fs::path& folder) {
+  std::map<std::string, DataTree::Array> all;
+  for (const fs::path& file : list_records(folder)) {
+    const DataTree tree = read_hdf5(file);
+    for (const auto& [path, array] : tree.arrays()) {
+      if (path.starts_with("result")) all[file.filename().string() + ":" + path] = array;
+    }
+  }
+  return all;
+}
+
+// Not a test of its own: what the test below starts and kills.
+TEST(LearningKillTest, DISABLED_MakesLearningData) {
+  const char* folder = std::getenv(kFolderVariable);
+  if (!folder) GTEST_SKIP() << "started by the other test of this file";
+  EXPECT_EQ(exit_code_of(make(folder, 2)), ExitCode::good);
+}
+
+::pid_t start(const fs::path& folder) {
+  const ::pid_t child = ::fork();
+  if (child != 0) return child;
+  ::setenv(kFolderVariable, folder.c_str(), 1);
+  ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
+  ::execl("/proc/self/exe", "test_harness", "--gtest_also_run_disabled_tests",
+          "--gtest_filter=LearningKillTest.DISABLED_MakesLearningData", nullptr);
+  ::_exit(99);
+}
+
+TEST(LearningKillTest, KilledAndResumedItIsTheSameBytesAsWhenItWasLeftAlone) {
+  const TemporaryFolder temporary;
+  const fs::path& base = temporary.path();
+  make(base / "alone", 1);
+  Random random(7);
+  int partly = 0;
+  int status = -1;
+  for (int attempt = 0; attempt <= kKills; ++attempt) {
+    const ::pid_t child = start(base / "killed");
+    ASSERT_GT(child, 0);
+    if (attempt < kKills) {
+      const double seconds = random.uniform(0.02, 0.08 + 0.02 * attempt);
+      std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+      ::kill(child, SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    const std::size_t there = list_records(base / "killed").size();
+    partly += there > 0 && there < 60;
+    // Whole or not there.
+    const std::string bytes = index_bytes(base / "killed");
+    if (!bytes.empty()) {
+      ASSERT_EQ(bytes, index_bytes(base / "alone"));
+    }
+  }
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_GE(partly, 1) << "the kills came too early or too late to mean anything";
+  EXPECT_EQ(index_bytes(base / "killed"), index_bytes(base / "alone"));
+  EXPECT_TRUE(results_of(base / "killed") == results_of(base / "alone"));
+}
+
+}  // namespace
+}  // namespace fracbench
