@@ -22,10 +22,11 @@ Vec3 opening_from_stress_intensity(const StressIntensity& k, double distance,
 
 /// Stress intensities at every boundary vertex from the opening at the sheet's vertices (m,
 /// parallel to `sheet.mesh.vertices`), 0 where the state is not `advancing`. The opening is read
-/// along the cut of the sheet with the plane normal to the front, at two distances behind it (2
-/// and 4 local edge lengths, less on a small crack). There it is compared with the profile
-/// sqrt(r (1 - r / L)), whose first term is the displacement correlation and whose second is exact
-/// for a penny: L is the length of the cut, or twice that where its far end is open (a mouth).
+/// along the cut of the sheet with the plane normal to the front, at 2 and 3 local edge lengths
+/// behind it (less on a small crack), and divided by the profile sqrt(r (1 - r / L)): its first
+/// term is the displacement correlation, its second is exact for a penny. L is the length of the
+/// cut, or twice that where its far end is open (a mouth). With a mouth the quotient grows about as
+/// r^2 (for an edge crack by 30 % up to the mouth): its value there serves to take that out.
 /// Throws as front_frames.
 std::vector<StressIntensity> stress_intensity_from_opening(const CrackSheet& sheet,
                                                            std::span<const Vec3> opening,

@@ -143,7 +143,8 @@ CrackedBody edge_cracked_strip(const StripShape& shape) {
   const double a = shape.depth;
   std::vector<double> xs{0};
   for (int i = 1; i <= shape.steps; ++i) {
-    xs.push_back(a / 2 * (1 - std::cos(std::numbers::pi * i / shape.steps)));
+    const double s = static_cast<double>(i) / shape.steps;
+    xs.push_back(a * (0.6 * s + 0.2 * (1 - std::cos(std::numbers::pi * s))));
   }
   xs.back() = a;
   const double fine = xs.back() - xs[xs.size() - 2];
