@@ -30,6 +30,7 @@ CarvedSurface::CarvedSurface(TriangleMesh closed_surface)
       on_path_(mesh_.vertices.size(), false) {
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
     set_face(static_cast<std::int32_t>(f), mesh_.faces[f]);
+    source_.push_back(static_cast<std::int32_t>(f));
   }
 }
 
@@ -163,6 +164,7 @@ std::int32_t CarvedSurface::split_edge(std::int32_t a, std::int32_t b, const Vec
     face_of_.erase({from, to});
     const auto fresh = static_cast<std::int32_t>(mesh_.faces.size());
     mesh_.faces.emplace_back();
+    source_.push_back(source_[side]);
     set_face(side, {c, from, x});
     set_face(fresh, {c, x, to});
   }
@@ -187,10 +189,24 @@ std::int32_t CarvedSurface::split_face(std::int32_t face, const Vec3& position) 
   const Face old = mesh_.faces[face];
   const auto fresh = static_cast<std::int32_t>(mesh_.faces.size());
   mesh_.faces.resize(mesh_.faces.size() + 2);
+  source_.resize(mesh_.faces.size(), source_[face]);
   set_face(face, {old[0], old[1], x});
   set_face(fresh, {old[1], old[2], x});
   set_face(fresh + 1, {old[2], old[0], x});
   return x;
+}
+
+std::vector<std::int32_t> CarvedSurface::faces_at(const Stop& stop) const {
+  if (stop.a < 0) return {stop.face};
+  if (stop.a == stop.b) return faces_around(stop.a);
+  return {face_of_.at({stop.a, stop.b}), face_of_.at({stop.b, stop.a})};
+}
+
+bool CarvedSurface::share_face(const Stop& one, const Stop& other) const {
+  const std::vector<std::int32_t> faces = faces_at(other);
+  return std::ranges::any_of(faces_at(one), [&](std::int32_t face) {
+    return std::ranges::find(faces, face) != faces.end();
+  });
 }
 
 std::int32_t CarvedSurface::place(const Stop& stop) {
@@ -243,6 +259,15 @@ std::optional<std::size_t> CarvedSurface::carve(const SurfaceCurve& curve) {
       continue;
     }
     kept.push_back(stop);
+  }
+  // Three stops of one face would make a flat triangle of it: the middle one is left out.
+  for (std::size_t i = 1; i + 1 < kept.size();) {
+    if (share_face(kept[i - 1], kept[i + 1])) {
+      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+      i = std::max<std::size_t>(i, 2) - 1;
+    } else {
+      ++i;
+    }
   }
   if (kept.size() < 3) return {};
   // Ends within faces first: a face whose side is split is no longer the face that was found.

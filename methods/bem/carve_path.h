@@ -34,6 +34,8 @@ class CarvedSurface {
   std::optional<std::size_t> carve(const SurfaceCurve& curve);
 
   const TriangleMesh& mesh() const { return mesh_; }
+  /// For each face of mesh() the face of the given surface that it is (a part of).
+  const std::vector<std::int32_t>& source() const { return source_; }
   /// The vertices along a curve, in its order; a closed one without the first at the end. Later
   /// curves that cross it add vertices.
   const std::vector<std::int32_t>& path(std::size_t curve) const { return paths_[curve].vertices; }
@@ -61,9 +63,12 @@ class CarvedSurface {
   std::int32_t split_face(std::int32_t face, const Vec3& position);
   bool may_move(std::int32_t vertex, const Vec3& to) const;
   std::vector<std::int32_t> faces_around(std::int32_t vertex) const;
+  std::vector<std::int32_t> faces_at(const Stop& stop) const;
+  bool share_face(const Stop& one, const Stop& other) const;
   void set_face(std::int32_t face, const Face& corners);
 
   TriangleMesh mesh_;
+  std::vector<std::int32_t> source_;
   std::map<Edge, std::int32_t> face_of_;  ///< the face to the left of each directed edge
   std::vector<std::int32_t> some_face_;   ///< one face at each vertex
   std::vector<bool> on_path_;             ///< for each vertex

@@ -176,6 +176,7 @@ CrackedSolution CrackSystem::solve(const CrackedSurface& body, const Eigen::Matr
   Eigen::VectorXd solution = unknowns.reduce(loads);
 
   Eigen::MatrixXd matrix = unknowns.reduce(operator_.update(elements, context));
+  unknowns_ = static_cast<std::size_t>(matrix.rows());
   context.stop_if_asked();
   // Adding the rigid motions, which the operator takes to 0, makes it positive definite.
   const Eigen::MatrixXd rigid = rigid_motions(body);

@@ -43,11 +43,15 @@ class CrackSystem {
   CrackedSolution solve(const CrackedSurface& body, const Eigen::Matrix3Xd& tractions,
                         const Context& context);
 
-  const OperatorCache& cache() const { return operator_; }
+  /// Of the last system.
+  std::size_t unknowns() const { return unknowns_; }
+  /// Vertices whose rows the last call assembled.
+  std::size_t assembled_vertices() const { return operator_.assembled_vertices(); }
 
  private:
   Material material_;
   OperatorCache operator_;
+  std::size_t unknowns_ = 0;
 };
 
 }  // namespace fracbench::bem

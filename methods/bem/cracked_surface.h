@@ -27,7 +27,8 @@ struct CrackedSurface {
   TriangleMesh surface;  ///< the vertices along the mouths once for each side
   std::vector<CrackSheet> sheets;
   std::vector<MouthVertex> mouths;
-  /// Cracks that have a boundary at the surface but no mouth in it: their sheets overshoot it.
+  /// Cracks that reach the surface (two edges of their boundary or more) without a mouth in all
+  /// places: there the sheet overshoots the surface, which stays continuous.
   std::int32_t overshooting = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "methods/bem/cracked_surface.h"
+#include "methods/bem/refit_sheet.h"
 
 namespace fracbench::bem {
 namespace {
@@ -147,9 +148,7 @@ CrackedSurface split_mouths(const TriangleMesh& surface, std::span<const CrackSh
     has_mouth[mouth.sheet] = true;
   }
   for (std::size_t s = 0; s < sheets.size(); ++s) {
-    const bool at_surface =
-        std::ranges::find(sheets[s].states, FrontState::at_surface) != sheets[s].states.end();
-    if (at_surface && !has_mouth[s]) ++result.overshooting;
+    if (!has_mouth[s] && !mouth_runs(sheets[s]).empty()) ++result.overshooting;
   }
   return result;
 }
