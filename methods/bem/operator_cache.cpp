@@ -81,8 +81,11 @@ const Eigen::MatrixXd& OperatorCache::update(const BoundaryElements& elements,
       auto block = next.block<3, 3>(row, column);
       if (old_vertex[i] >= 0 && old_vertex[j] >= 0) {
         block = matrix_.block<3, 3>(3 * old_vertex[i], 3 * old_vertex[j]);
-      } else if (old_vertex[i] < 0 && (old_vertex[j] >= 0 || i <= j)) {
+      } else if (old_vertex[i] < 0 && (old_vertex[j] >= 0 || i < j)) {
         block = rows.block<3, 3>(3 * part.local[i], column);
+      } else if (i == j) {
+        const Mat3 own = rows.block<3, 3>(3 * part.local[i], column);
+        block = (own + own.transpose()) / 2;
       } else {
         block = rows.block<3, 3>(3 * part.local[j], row).transpose();
       }
