@@ -55,13 +55,20 @@ Openings openings_in_infinite_body(std::span<const CrackSheet> cracks, const Mat
   for (std::size_t t = 0; t < elements.size(); ++t) {
     tractions.col(static_cast<Eigen::Index>(t)) = stress * elements.normals[t];
   }
-  Eigen::MatrixXd matrix = assemble_hypersingular(elements, material, context)(free, free);
-  Eigen::VectorXd solution = traction_moments(elements, tractions)(free);
+  const Eigen::MatrixXd whole = assemble_hypersingular(elements, material, context);
+  const Eigen::VectorXd loads = traction_moments(elements, tractions);
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd matrix(count, count);
+  Eigen::VectorXd solution(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    solution[j] = loads[free[j]];
+    for (Eigen::Index i = 0; i < count; ++i) matrix(i, j) = whole(free[i], free[j]);
+  }
   context.stop_if_asked();
   solve_positive(matrix, solution);
 
   Eigen::VectorXd all = Eigen::VectorXd::Zero(first);
-  all(free) = solution;
+  for (Eigen::Index i = 0; i < count; ++i) all[free[i]] = solution[i];
   Openings openings;
   Eigen::Index next = 0;
   for (const CrackSheet& crack : cracks) {
