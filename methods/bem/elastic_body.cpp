@@ -5,7 +5,9 @@
 #include <lapacke.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/available_memory.h"
@@ -13,6 +15,14 @@
 
 namespace fracbench::bem {
 namespace {
+
+// Below this many unknowns one thread factorises in a tenth of a second or two, and several only
+// wait for each other where the processor is shared.
+constexpr Eigen::Index kThreadedUnknowns = 3000;
+
+void set_blas_threads(Eigen::Index unknowns, int threads) {
+  openblas_set_num_threads(unknowns < kThreadedUnknowns ? 1 : threads);
+}
 
 // Every side must belong to two triangles that pass it in opposite directions.
 void check_closed(const TriangleMesh& mesh) {
@@ -31,21 +41,59 @@ void check_closed(const TriangleMesh& mesh) {
   }
 }
 
-Eigen::MatrixXd rigid_motions(const BoundaryElements& elements) {
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& v : elements.vertices)
-    centre += v / static_cast<double>(elements.vertices.size());
-  Eigen::MatrixXd motions(static_cast<Eigen::Index>(elements.unknowns()), 6);
-  for (std::size_t v = 0; v < elements.vertices.size(); ++v) {
-    const Vec3 arm = elements.vertices[v] - centre;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 axis = Vec3::Unit(k);
-      motions.block<3, 1>(3 * static_cast<Eigen::Index>(v), k) = axis;
-      motions.block<3, 1>(3 * static_cast<Eigen::Index>(v), 3 + k) = axis.cross(arm);
+// The connected parts of the surface: the lowest vertex of its part for each vertex.
+std::vector<std::int32_t> surface_parts(const BoundaryElements& elements) {
+  std::vector<std::int32_t> part(elements.vertices.size());
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](std::int32_t v) {
+    while (part[v] != v) v = part[v] = part[part[v]];
+    return v;
+  };
+  for (const Face& face : elements.triangles) {
+    for (const int k : {1, 2}) {
+      const std::int32_t a = root(face[0]);
+      const std::int32_t b = root(face[k]);
+      part[std::max(a, b)] = std::min(a, b);
     }
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(motions.rows(), 6);
+  for (std::size_t v = 0; v < part.size(); ++v) part[v] = root(static_cast<std::int32_t>(v));
+  return part;
+}
+
+// The rigid motions of each part of the surface: D leaves all of them free, since the double layer
+// of a rigid motion on a closed surface is rigid on either side.
+Eigen::MatrixXd rigid_motions(const BoundaryElements& elements) {
+  const std::vector<std::int32_t> part = surface_parts(elements);
+  std::map<std::int32_t, std::vector<std::int32_t>> parts;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    parts[part[v]].push_back(static_cast<std::int32_t>(v));
+  }
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(elements.unknowns()),
+                                              6 * static_cast<Eigen::Index>(parts.size()));
+  Eigen::Index column = 0;
+  for (const auto& [first, vertices] : parts) {
+    Vec3 centre = Vec3::Zero();
+    for (const std::int32_t v : vertices) {
+      centre += elements.vertices[v] / static_cast<double>(vertices.size());
+    }
+    Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(vertices.size()), 6);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vec3 arm = elements.vertices[vertices[i]] - centre;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 axis = Vec3::Unit(k);
+        motions.block<3, 1>(3 * static_cast<Eigen::Index>(i), k) = axis;
+        motions.block<3, 1>(3 * static_cast<Eigen::Index>(i), 3 + k) = axis.cross(arm);
+      }
+    }
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions);
+    motions = qr.householderQ() * Eigen::MatrixXd::Identity(motions.rows(), 6);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      all.block<3, 6>(3 * static_cast<Eigen::Index>(vertices[i]), column) =
+          motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    }
+    column += 6;
+  }
+  return all;
 }
 
 }  // namespace
@@ -83,9 +131,9 @@ ElasticBody::ElasticBody(const TriangleMesh& mesh, const Material& material, Con
   const StageTimer::Scope stage = context.timer.stage("factorise");
   const auto n = static_cast<int>(factor_.rows());
   rigid_ = bem::rigid_motions(elements_);
-  openblas_set_num_threads(context.threads);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, 6, factor_.trace() / n, rigid_.data(), n,
-              1, factor_.data(), n);
+  set_blas_threads(n, context.threads);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, static_cast<int>(rigid_.cols()),
+              factor_.trace() / n, rigid_.data(), n, 1, factor_.data(), n);
   const lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, factor_.data(), n);
   if (info != 0) {
     throw MethodFailure(
@@ -102,7 +150,7 @@ Eigen::VectorXd ElasticBody::displacements(const Eigen::Matrix3Xd& tractions,
       0.5 * traction_moments(elements_, tractions) -
       apply_adjoint_double_layer(elements_, tractions, elements_, material_, context);
   load -= rigid_ * (rigid_.transpose() * load);
-  openblas_set_num_threads(context.threads);
+  openblas_set_num_threads(1);  // one right-hand side: the memory is the limit
   solve_in_place(load);
   load -= rigid_ * (rigid_.transpose() * load);
   return load.col(0);

@@ -23,7 +23,9 @@ ElasticCost predict_cost(std::size_t triangles);
 
 /// An elastic body free in space, ready to answer to any load on its surface: the hypersingular
 /// operator D of its surface, factorised once. Rigid motions, which D leaves free, are held by
-/// D + alpha Q Q^T with the six orthonormal rigid motions Q and alpha = tr(D) / (unknowns).
+/// D + alpha Q Q^T with orthonormal rigid motions Q and alpha = tr(D) / (unknowns). A surface in
+/// several parts (a body with closed cavities) has six for each part: its displacements are then
+/// known up to a rigid motion of each part, which changes no stress.
 class ElasticBody {
  public:
   /// `mesh`: closed, outward oriented. Throws InputError where it is not closed, has triangles
@@ -34,7 +36,7 @@ class ElasticBody {
 
   const BoundaryElements& elements() const { return elements_; }
   const Material& material() const { return material_; }
-  /// Orthonormal rigid motions, unknowns x 6.
+  /// Orthonormal rigid motions, unknowns x 6 for each part of the surface.
   const Eigen::MatrixXd& rigid_motions() const { return rigid_; }
 
   /// Displacements (m, three for each vertex) under tractions (Pa, 3 x triangles) that are in
