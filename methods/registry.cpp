@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "methods/cvd/cvd.h"
+#include "methods/modes/modes.h"
 
 namespace fracbench {
 
@@ -66,7 +67,7 @@ std::vector<std::unique_ptr<Method>> registered() {
 
 const std::vector<std::unique_ptr<Method>>& methods() {
   static const std::vector<std::unique_ptr<Method>> list = registered<  //
-      CvdMethod                                                         //
+      CvdMethod, ModesMethod                                            //
       >();
   return list;
 }

@@ -28,7 +28,7 @@ struct Settings {
   Settings(const Options& options, const Material& material) {
     cage.kind = kind_of(options.text("cage"));
     cage.target_faces = options.integer("cage_faces");
-    cage.least_tets = options.number("least_tets");
+    cage.target_tets = options.integer("tets");
     modes.count = static_cast<int>(options.integer("modes"));
     modes.dimension = static_cast<int>(options.integer("dimension"));
     modes.elastic = options.flag("elastic");
@@ -52,7 +52,7 @@ struct Settings {
     nlohmann::ordered_json json;
     json["cage"] = static_cast<int>(cage.kind);
     json["cage_faces"] = cage.target_faces;
-    json["least_tets"] = cage.least_tets;
+    json["tets"] = cage.target_tets;
     json["modes"] = modes.count;
     json["dimension"] = modes.dimension;
     json["elastic"] = modes.elastic;
@@ -80,15 +80,11 @@ struct Settings {
     cage.kind = CageKind::offset;
     modes.dimension = 3;
     modes.elastic = false;
-    if (name == "paper") {
-      cage.target_faces = 6000;
-      if (modes.count < 5 || modes.count > 60) {
-        throw InputError(fmt::format(
-            "modes: settings 'paper' have 5 to 60 modes, option 'modes' is {}", modes.count));
-      }
-    } else {
-      cage.target_faces = 13000;
-      modes.count = 10;
+    const modes::NamedCage& named = name == "paper" ? modes::kPaperCage : modes::kPaperFineCage;
+    cage.target_faces = named.cage_faces;
+    if (modes.count < named.least_modes || modes.count > named.most_modes) {
+      throw InputError(fmt::format("modes: settings '{}' have {} to {} modes, option 'modes' is {}",
+                                   name, named.least_modes, named.most_modes, modes.count));
     }
   }
 };
@@ -155,11 +151,11 @@ OptionsSchema ModesMethod::options() const {
        .summary = "faces of the cage",
        .minimum = 20,
        .maximum = 100000},
-      {.name = "least_tets",
-       .fallback = 0.0,
+      {.name = "tets",
+       .fallback = std::int64_t{0},
        .unit = "",
-       .summary = "no tet is larger than the cage's volume over this; 0: as few tets as their "
-                  "quality allows",
+       .summary =
+           "about as many tets, where their quality does not need more; 0: as few as it allows",
        .minimum = 0,
        .maximum = 1e6},
       {.name = "jump_threshold",
