@@ -7,77 +7,16 @@
 
 #include "geometry/measures.h"
 #include "methods/bem/front_loop.h"
+#include "methods/bem/front_stops.h"
 
 namespace fracbench::bem {
 namespace {
 
 constexpr int kFirstMarkers = 8;
-constexpr double kFirstRadius = 1.4;     // spacings
-constexpr double kSurfaceOvershoot = 2;  // voxels beyond the last point inside
-constexpr double kCrackOvershoot = 1;    // voxels beyond the other crack
-constexpr double kMarch = 0.5;           // voxels, step of the search for the surface
-constexpr double kReach = 3;             // voxels from the front's end to the surface beside it
-constexpr double kSplit = 1.5;           // spacings
-constexpr double kMerge = 0.5;           // spacings
-
-/// Where a way out of the body or into another crack ends.
-struct Stop {
-  Vec3 position;
-  FrontState state;
-};
-
-/// Where a marker ends that has just left the body at `exit`: farther out, by up to two voxels,
-/// into the middle between its own way and the way straight away from the body, since one that
-/// leaves it at a grazing angle would not get away from its voxels.
-Vec3 beyond_surface(const Vec3& exit, const FrontMarker& marker, const Vec3& direction,
-                    const CutLinks& links) {
-  constexpr int kDirections = 8;
-  const double reach = kSurfaceOvershoot * links.spacing();
-  const Vec3 across = direction.cross(marker.normal);
-  Vec3 away = Vec3::Zero();
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kDirections;
-    const Vec3 way = std::cos(angle) * direction + std::sin(angle) * across;
-    if (links.inside(exit + reach * way)) away -= way;
-  }
-  Vec3 out = direction;
-  if (away.norm() > 0.1) out += away.normalized();
-  if (out.norm() < 0.1) out = away;
-  out.normalize();
-  Vec3 end = exit;
-  for (double over = kMarch; over <= kSurfaceOvershoot; over += kMarch) {
-    const Vec3 next = exit + over * links.spacing() * out;
-    if (!links.inside(next)) end = next;
-  }
-  return end;
-}
-
-/// Where a marker ends that goes straight on from `from`, a point in the body, for `length`; empty
-/// where nothing is in the way.
-std::optional<Stop> stop_on_way(const FrontMarker& marker, const Vec3& direction, double length,
-                                bool forward, std::int32_t id, const CrackSpace& space) {
-  const CutLinks& links = space.links;
-  const double voxel = links.spacing();
-  const int steps = std::max(1, static_cast<int>(std::ceil(length / (kMarch * voxel) - 1e-9)));
-  const auto at = [&](double s) -> Vec3 { return marker.position + s * direction; };
-  double before = 0;
-  for (int k = 1; k <= steps; ++k) {
-    const double here = length * k / steps;
-    if (links.crack_between(at(before), at(here), id) >= 0) {
-      return Stop{at(here + kCrackOvershoot * voxel), FrontState::at_crack};
-    }
-    if (!links.inside(at(here))) {
-      return Stop{beyond_surface(at(here), marker, direction, links), FrontState::at_surface};
-    }
-    before = here;
-  }
-  const auto trace =
-      space.traces.in_way(marker.position, direction, length, marker.normal, id, forward);
-  if (!trace) return std::nullopt;
-  // On along the other surface.
-  const Vec3 along = direction - direction.dot(trace->normal) * trace->normal;
-  return Stop{trace->position + kCrackOvershoot * voxel * along.normalized(), FrontState::at_crack};
-}
+constexpr double kFirstRadius = 1.4;  // spacings
+constexpr double kReach = 3;          // voxels from the front's end to the surface beside it
+constexpr double kSplit = 1.5;        // spacings
+constexpr double kMerge = 0.5;        // spacings
 
 /// Share of a triangle that lies in the body, from the centres of 64 equal parts where it crosses
 /// the surface.
@@ -119,7 +58,8 @@ class Sweep {
   }
   /// New markers between a and its successor b, in order.
   std::vector<FrontMarker> between(const FrontMarker& a, const FrontMarker& b) const;
-  std::vector<FrontMarker> beside(const FrontMarker& end, const FrontMarker& stopped) const;
+  std::vector<FrontMarker> beside(const FrontMarker& end, const FrontMarker& stopped,
+                                  bool stopped_is_next) const;
   void fill(std::int32_t from, std::int32_t to, std::span<const std::int32_t> chain);
 
   Crack& crack_;
@@ -164,15 +104,14 @@ void Sweep::merge_close_markers() {
 
 /// At the end of an advancing run the front is drawn along the surface, or the crack, at which its
 /// neighbour stopped; where that lies far off, the front spreads sideways.
-std::vector<FrontMarker> Sweep::beside(const FrontMarker& end, const FrontMarker& stopped) const {
+std::vector<FrontMarker> Sweep::beside(const FrontMarker& end, const FrontMarker& stopped,
+                                       bool stopped_is_next) const {
   const Vec3 apart = stopped.position - end.position;
   const double distance = apart.norm();
   // One that stopped ahead is reached by going on.
   if (distance < 1.2 * options_.spacing || apart.dot(end.forward) > 0.3 * distance) return {};
-  Vec3 sideways = apart - apart.dot(end.forward) * end.forward;
-  sideways -= sideways.dot(end.normal) * end.normal;
-  if (sideways.norm() < 0.1 * distance) return {};
-  sideways.normalize();
+  const Vec3 on = end.normal.cross(end.forward);  // along the loop
+  const Vec3 sideways = stopped_is_next ? on : Vec3(-on);
   FrontMarker marker = end;
   marker.coarse = -1;
   if (const auto stop =
@@ -192,8 +131,8 @@ std::vector<FrontMarker> Sweep::beside(const FrontMarker& end, const FrontMarker
 std::vector<FrontMarker> Sweep::between(const FrontMarker& a, const FrontMarker& b) const {
   const bool a_advances = a.state == FrontState::advancing;
   const bool b_advances = b.state == FrontState::advancing;
-  if (a_advances && !b_advances) return beside(a, b);
-  if (b_advances && !a_advances) return beside(b, a);
+  if (a_advances && !b_advances) return beside(a, b, true);
+  if (b_advances && !a_advances) return beside(b, a, false);
   const double distance = (b.position - a.position).norm();
   if (!a_advances || distance <= kSplit * options_.spacing) return {};
   const int count = static_cast<int>(std::ceil(distance / options_.spacing)) - 1;

@@ -129,7 +129,8 @@ std::string sheet_faults(const Crack& crack, double mesh_size) {
   if (mesh.vertices.size() + mesh.faces.size() - (sides.size() + boundary_edges) / 2 != 1) {
     return "no disc";
   }
-  if (longest > 2 * mesh_size) return "an edge of " + std::to_string(longest);
+  // A boundary edge between two markers next to each other cannot be split.
+  if (longest > 3 * mesh_size) return "an edge of " + std::to_string(longest);
   return {};
 }
 

@@ -146,6 +146,30 @@ TEST(Propagation, EndsTheSecondCrackOnTheFirstWithoutAGap) {
   }
 }
 
+TEST(Propagation, LeavesNoLinkUncutAtMouthsAndJointsAtAnyAngle) {
+  const TriangleMesh bar = test::box(kBar);
+  for (const double tilt : {0.0, 0.4, -0.6, 0.9, 1.2}) {  // of the first crack towards the surface
+    for (int n = 0; n < 6; ++n) {
+      SCOPED_TRACE(testing::Message() << "tilt " << tilt << ", rotation " << n);
+      const Mat3 turn =
+          Eigen::AngleAxisd(0.1 + 0.37 * n, Vec3(1, 2 - 0.3 * n, -1).normalized()).matrix();
+      const auto model = test::model_with_planes(
+          test::hydrostatic(1e7),
+          {Start{turn * Vec3(0.1, 0.25, 0.03), turn * Vec3(0, 1, 0)},
+           Start{turn * Vec3(-0.95, 0.02, 0), turn * Vec3(-1, 0, 0)}},
+          {turn * Vec3(std::cos(tilt), std::sin(tilt), 0), turn * Vec3(0, 1, 0)});
+      CutLinks links(test::rotated(bar, turn), 0.015, 1);
+      const Propagation result = test::run(links, model, test::long_run(0.1));
+      EXPECT_EQ(result.report.end, PropagationEnd::complete);
+      const std::vector<double> parts = test::parts(links);
+      ASSERT_GE(parts.size(), 3u);
+      EXPECT_GT(parts[2], 0.05);
+      EXPECT_NEAR(parts[0] + parts[1] + parts[2],
+                  parts.size() > 3 && parts[3] > 0.05 ? 1 - parts[3] : 1, 1e-3);
+    }
+  }
+}
+
 TEST(Propagation, JoinsTwoCracksThatMeetInOnePlane) {
   const Vec3 plane(1, 0, 0);
   for (const double offset : {0.0, 0.006}) {
