@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "methods/bem/bem.h"
 #include "methods/cvd/cvd.h"
 #include "methods/modes/modes.h"
 
@@ -67,7 +68,7 @@ std::vector<std::unique_ptr<Method>> registered() {
 
 const std::vector<std::unique_ptr<Method>>& methods() {
   static const std::vector<std::unique_ptr<Method>> list = registered<  //
-      CvdMethod, ModesMethod                                            //
+      CvdMethod, BemMethod, ModesMethod                                 //
       >();
   return list;
 }

@@ -146,8 +146,7 @@ Settings settings_from(const Options& options) {
   s.max_cracks = static_cast<int>(options.integer("max_cracks"));
   s.mode = options.text("mode") == "full" ? Mode::full : Mode::fast;
   s.calibrated = options.text("k_factor") == "calibrated";
-  s.balance =
-      options.text("balance") == "inertia-relief" ? Balance::inertia_relief : Balance::min_norm;
+  s.balance = load_balance(options.text("balance"));
   s.strength.kind = strength_kind(options.text("strength_field"));
   s.strength.weibull_modulus = options.number("weibull_modulus");
   s.strength.correlation_length = options.number("correlation_length");
@@ -169,6 +168,11 @@ Settings settings_from(const Options& options) {
         "bem: option 'crack_mesh' is {} m, finer than the voxels of {} m; give at least {} m, or a "
         "smaller 'voxel'",
         s.crack_mesh, s.voxel, s.voxel));
+  }
+  if (s.mode == Mode::full && s.balance == LoadBalance::inertia_relief) {
+    throw InputError(
+        "bem: option 'balance' inertia-relief is for mode fast: the body force does not reach the "
+        "cracks that mode full solves for; use min-norm");
   }
   return s;
 }

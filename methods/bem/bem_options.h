@@ -2,6 +2,7 @@
 
 #include "core/material.h"
 #include "core/options.h"
+#include "methods/bem/load_balance.h"
 #include "methods/bem/strength_field.h"
 
 namespace fracbench::bem {
@@ -9,11 +10,6 @@ namespace fracbench::bem {
 enum class Mode {
   fast,  ///< stress at the fronts from one initial solve (Hahn and Wojtan 2016)
   full   ///< the openings of all cracks are solved for in every step (Hahn and Wojtan 2015)
-};
-
-enum class Balance {
-  min_norm,       ///< least correction of the tractions to zero net force and torque
-  inertia_relief  ///< the body accelerates: its inertia balances the load
 };
 
 /// The options of the method, as values.
@@ -24,7 +20,7 @@ struct Settings {
   int max_cracks = 10;
   Mode mode = Mode::fast;
   bool calibrated = false;  ///< factor of the `fast` stress intensity: exact for a penny crack
-  Balance balance = Balance::min_norm;
+  LoadBalance balance = LoadBalance::min_norm;
   StrengthOptions strength;  ///< mean and seed are filled in at the break
   bool parity = false;
   double smallest_fragment = 1e-6;  ///< of the body's volume

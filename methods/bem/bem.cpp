@@ -1,0 +1,55 @@
+#include "methods/bem/bem.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "geometry/components.h"
+#include "geometry/measures.h"
+#include "methods/bem/bem_body.h"
+#include "methods/bem/bem_options.h"
+#include "methods/bem/body_files.h"
+
+namespace fracbench {
+
+MethodInfo BemMethod::info() const {
+  MethodInfo info;
+  info.name = "bem";
+  info.summary = "cracks run through an elastic body by boundary elements, the reference";
+  info.citation =
+      "Hahn, Wojtan, \"High-resolution brittle fracture simulation with boundary elements\", ACM "
+      "TOG 34(4), 2015; \"Fast approximations for boundary element based brittle fracture "
+      "simulation\", ACM TOG 35(4), 2016";
+  info.shape_type = "crack propagation";
+  info.refracture = true;
+  return info;
+}
+
+OptionsSchema BemMethod::options() const { return bem::options_schema(); }
+
+std::unique_ptr<Breakable> BemMethod::prepare(const Target& target, const LearningData&,
+                                              const Options& options, Context& context) const {
+  const bem::Settings settings = bem::settings_from(options);
+  bem::check_material(target.material);
+  if (const auto parts = solid_components(target.mesh).size(); parts != 1) {
+    throw InputError(fmt::format(
+        "bem: '{}' consists of {} separate bodies; boundary elements need one: join them, or break "
+        "them one by one",
+        target.name, parts));
+  }
+  auto body = std::make_unique<bem::BemBody>(bem::BodyState{.settings = settings,
+                                                            .body = target,
+                                                            .target_volume = volume(target.mesh),
+                                                            .target_area = area(target.mesh)});
+  body->prepare(context);
+  return body;
+}
+
+std::unique_ptr<Breakable> BemMethod::load(const std::filesystem::path& folder,
+                                           const Target& target, const Options& options) const {
+  return std::make_unique<bem::BemBody>(
+      bem::read_body(folder, target, bem::settings_from(options)));
+}
+
+std::vector<ValidationCase> BemMethod::validation() const { return {}; }
+
+}  // namespace fracbench
