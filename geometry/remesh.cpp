@@ -57,7 +57,7 @@ class Remesher {
       const RemeshPath path =
           order == CollapseOrder::shortest_first ? RemeshPath::collapsed : RemeshPath::simplified;
       for (const double finer : kFiner) {
-        if (finer * triangles_ > kMostFine) break;
+        if (finer * triangles_ > kMostFine || (options_.quick && finer > kFiner[0])) break;
         const auto fine =
             isotropic_remesh(start, length_for(start, finer * triangles_), options_.feature_angle);
         if (!fine) continue;
@@ -68,13 +68,14 @@ class Remesher {
       if (auto result = collapsed(start, order)) {
         return RemeshResult{.mesh = *std::move(result), .path = path};
       }
+      if (options_.quick) break;
     }
     return std::nullopt;
   }
 
   std::optional<RemeshResult> from_surface(const TriangleMesh& mesh) {
-    auto result = from(mesh, kVolumeTolerance);
-    return result ? std::move(result) : from(mesh, kLooseVolumeTolerance);
+    auto result = from(mesh, options_.quick ? kLooseVolumeTolerance : kVolumeTolerance);
+    return result || options_.quick ? std::move(result) : from(mesh, kLooseVolumeTolerance);
   }
 
   const std::string& reason() const { return reason_; }
@@ -120,7 +121,9 @@ class Remesher {
       }
       return false;
     }
-    if (report.components != shells_) {
+    // A cavity finer than the triangles may close where the isosurface is allowed to lose it too.
+    if (report.components != shells_ &&
+        !(options_.allow_isosurface && report.components < shells_)) {
       reason_ = fmt::format("{} shells become {}", shells_, report.components);
       return false;
     }
@@ -173,6 +176,7 @@ RemeshResult remesh(const TriangleMesh& mesh, std::string_view name, const Remes
   if (!result) {
     std::string advice = "thicken the shape, or make its surface simpler";
     for (int triangles = 2 * options.triangles; triangles <= kMostAdvised; triangles *= 2) {
+      if (options.quick) break;
       if (!Remesher(mesh, triangles, options).from_surface(mesh)) continue;
       advice = fmt::format("use {} triangles", triangles);
       break;

@@ -12,8 +12,11 @@ struct RemeshOptions {
   /// Edges whose faces' normals differ by more than this are features: their line is kept where it
   /// is longer than a few edges of the result. Degrees.
   double feature_angle = 45;
-  /// Whether the isosurface may stand in where all else fails: it may lose what is thin.
+  /// Whether the isosurface may stand in where all else fails, and small cavities may close: what
+  /// is thin against the triangles may be lost.
   bool allow_isosurface = false;
+  /// Give up sooner: the dearest ways are not tried, and no count that would do is looked for.
+  bool quick = false;
   int threads = 2;
 };
 
@@ -43,7 +46,8 @@ struct RemeshResult {
 /// shape.
 ///
 /// `mesh` must be a solid (see require_solid). `name` is the body, for messages. Throws InputError
-/// where fewer than 64 triangles are wanted, and where no way gives a solid, naming a count that
+/// where fewer than 64 triangles are wanted, and where no way gives a solid, naming (unless
+/// `quick`) a count that
 /// does. The same bytes for
 /// any number of threads.
 RemeshResult remesh(const TriangleMesh& mesh, std::string_view name,

@@ -141,6 +141,7 @@ const BemBody::Ready& BemBody::ready(Context& context) const {
       elements_ = remesh(state_.body.mesh, state_.body.name,
                          {.triangles = element_count(state_),
                           .allow_isosurface = state_.is_piece,
+                          .quick = state_.is_piece,
                           .threads = context.threads})
                       .mesh;
     }
@@ -161,6 +162,10 @@ const BemBody::Ready& BemBody::ready(Context& context) const {
   } catch (const InputError& error) {
     refusal_ = error.what();
     throw;
+  } catch (const MethodFailure& error) {
+    if (!state_.is_piece) throw;
+    refusal_ = error.what();
+    throw InputError(refusal_);
   }
   return *ready_;
 }
