@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/error.h"
 #include "geometry/components.h"
 #include "geometry/measures.h"
 #include "methods/bem/bem_body.h"
 #include "methods/bem/bem_options.h"
 #include "methods/bem/body_files.h"
+#include "methods/bem/validation/crack_cases.h"
+#include "methods/bem/validation/elastic_cases.h"
 
 namespace fracbench {
 
@@ -50,6 +55,11 @@ std::unique_ptr<Breakable> BemMethod::load(const std::filesystem::path& folder,
       bem::read_body(folder, target, bem::settings_from(options)));
 }
 
-std::vector<ValidationCase> BemMethod::validation() const { return {}; }
+std::vector<ValidationCase> BemMethod::validation() const {
+  std::vector<ValidationCase> cases = bem::elastic_validation_cases();
+  for (ValidationCase& one : bem::crack_validation_cases()) cases.push_back(std::move(one));
+  std::ranges::stable_sort(cases, {}, &ValidationCase::seconds);
+  return cases;
+}
 
 }  // namespace fracbench

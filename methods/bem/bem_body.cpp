@@ -16,6 +16,7 @@
 #include "methods/bem/body_stress.h"
 #include "methods/bem/contact_load.h"
 #include "methods/bem/fast_model.h"
+#include "methods/bem/full_model.h"
 #include "methods/bem/load_balance.h"
 #include "methods/bem/pictures.h"
 #include "methods/bem/surface_stress.h"
@@ -82,6 +83,14 @@ void leave_notes(const Propagation& growth, const FragmentReport& fragments, std
   for (const std::string& failure : r.failures) {
     note_once(context, fmt::format("bem, {}: {}", name_in_notes(impact), failure));
   }
+}
+
+void leave_note(const FullModelReport& r, const Impact& impact, const Context& context) {
+  note_once(context,
+            fmt::format("bem, {}: {} solves with at most {} unknowns; {} of {} mouths at the "
+                        "surface without a conforming mesh, {} solves repeated",
+                        name_in_notes(impact), r.solves, r.most_unknowns, r.overshooting,
+                        r.cracks_at_surface, r.repeated));
 }
 
 /// For each label, the part of each crack's surface that runs inside it: the triangles that cut
@@ -217,8 +226,18 @@ std::vector<Piece> BemBody::fracture(const Impact& impact, Context& context) con
   strength.seed = seed;
 
   FractureModel model;
+  std::optional<FullModel> full;
   if (state_.settings.mode == Mode::full) {
-    throw MethodFailure("bem: mode full is not there yet; use mode fast");
+    full.emplace(*elements_, load.tractions, material, context);
+    model.surface_stress = [&](std::span<const CrackSheet> cracks) {
+      const auto stage = context.timer.stage("full solve");
+      return full->surface_stress(cracks);
+    };
+    model.stress_intensity = [&](std::span<const CrackSheet> cracks) {
+      const auto stage = context.timer.stage("full solve");
+      return full->stress_intensity(cracks);
+    };
+    model.stress_changes = true;
   } else {
     model.surface_stress = [&](std::span<const CrackSheet>) {
       const auto stage = context.timer.stage("initiation");
@@ -262,6 +281,7 @@ std::vector<Piece> BemBody::fracture(const Impact& impact, Context& context) con
   // Pieces are asked at every touch; what did not break them is not worth a line each.
   if (!state_.is_piece || fragments.pieces.size() > 1) {
     leave_notes(growth, fragments.report, fragments.pieces.size(), impact, context);
+    if (full) leave_note(full->report(), impact, context);
   }
   if (!context.pictures.empty()) {
     const auto stage = context.timer.stage("pictures");
