@@ -1,9 +1,12 @@
 // What the harness costs beyond methods and scenes. The budget is 20 ms per cell: plan, claim,
-// record (two fsyncs: the file and its folder) and bookkeeping together, see RunPerCell.
+// record (two fsyncs: the file and its folder) and bookkeeping together, see RunPerCell; with
+// worker processes RunInWorkersPerCell, their start included, and AskWarmWorker for the way there
+// and back alone. This program is its own worker.
 
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include "core/random.h"
 #include "harness/data_file.h"
@@ -13,6 +16,8 @@
 #include "harness/runner.h"
 #include "harness/suite_reader.h"
 #include "harness/summaries.h"
+#include "harness/workers/serve_cells.h"
+#include "harness/workers/worker_pool.h"
 
 namespace fracbench {
 namespace {
@@ -147,7 +152,64 @@ BENCHMARK(RunPerCell)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
+/// Scenes that cost nothing and give a typical record.
+Catalog instant_catalog() {
+  Catalog catalog = built_in_catalog();
+  catalog.metrics = {};
+  catalog.run_scene = [](auto&&...) {
+    static const SceneResult result = typical_record().outcome.scene;
+    return result;
+  };
+  return catalog;
+}
+
+void AskWarmWorker(benchmark::State& state) {
+  const Catalog catalog = instant_catalog();
+  const Plan plan = make_plan(bench_suite(catalog, 1), catalog);
+  WorkerPool pool(plan, catalog, {});
+  Progress progress;
+  pool.execute(plan.cells[0], progress, {});
+  for (auto _ : state) {
+    const Record record = pool.execute(plan.cells[0], progress, {});
+    if (record.outcome.status != CellStatus::ok) state.SkipWithError(record.outcome.reason.c_str());
+  }
+}
+BENCHMARK(AskWarmWorker)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void StartWorker(benchmark::State& state) {
+  const Catalog catalog = instant_catalog();
+  const Plan plan = make_plan(bench_suite(catalog, 1), catalog);
+  Progress progress;
+  for (auto _ : state) WorkerPool(plan, catalog, {}).execute(plan.cells[0], progress, {});
+}
+BENCHMARK(StartWorker)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void RunInWorkersPerCell(benchmark::State& state) {
+  const Catalog catalog = instant_catalog();
+  for (auto _ : state) {
+    state.PauseTiming();
+    const Folder folder;
+    state.ResumeTiming();
+    const Plan plan = make_plan(bench_suite(catalog, kCells), catalog);
+    WorkerPool pool(plan, catalog, {});
+    run_suite(plan, catalog,
+              {.folder = folder.path(),
+               .jobs = static_cast<int>(state.range(0)),
+               .execute = [&](const Cell& cell, Progress& progress, const std::stop_token& stop) {
+                 return pool.execute(cell, progress, stop);
+               }});
+  }
+  state.counters["per_cell"] = per_cell(kCells);
+}
+BENCHMARK(RunInWorkersPerCell)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 }  // namespace
 }  // namespace fracbench
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "worker") {
+    return fracbench::serve_cells(fracbench::instant_catalog());
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
