@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -34,6 +35,15 @@ constexpr auto kLoadInterval = std::chrono::milliseconds(250);
 
 /// How many cells of the queue may be overtaken by one that is ready.
 constexpr std::size_t kAhead = 64;
+
+/// How many lost cells a run tells of.
+constexpr std::size_t kLostShown = 10;
+
+/// Whether a cell said nothing about fracture because of its method's program.
+bool is_lost(CellStatus status) {
+  return status == CellStatus::timeout || status == CellStatus::out_of_memory ||
+         status == CellStatus::crash;
+}
 
 std::string describe(const Plan& plan, const Cell& cell) {
   const PlannedShape& shape = plan.shapes[cell.shape];
@@ -165,7 +175,17 @@ class Run {
     store_.write(*claim, record);
     const std::chrono::duration<double> seconds = Clock::now() - start;
     note(cell, record.outcome.status, seconds.count(), false);
+    if (is_lost(record.outcome.status)) say_lost(cell, record.outcome);
     return true;
+  }
+
+  /// A mistake that all cells share shows with the first, and does not fill the screen.
+  void say_lost(const Cell& cell, const CellOutcome& outcome) {
+    const std::size_t number = ++lost_;
+    if (number > kLostShown) return;
+    say(fmt::format("{}: {}: {}{}", describe(plan_, cell), to_string(outcome.status),
+                    outcome.reason,
+                    number == kLostShown ? "; the records tell of further ones" : ""));
   }
 
   Record execute(const Cell& cell, std::size_t index) {
@@ -273,6 +293,7 @@ class Run {
   const Clock::time_point start_ = Clock::now();
   std::stop_source stop_;
   std::once_flag load_measured_;
+  std::atomic<std::size_t> lost_ = 0;
   MachineLoad load_;  // written once, before the first cell
 
   std::mutex mutex_;  // guards all that follows

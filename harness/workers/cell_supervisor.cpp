@@ -23,6 +23,8 @@ using Clock = std::chrono::steady_clock;
 /// How often time and memory are looked at, and how soon a request to stop is heard.
 constexpr auto kTick = std::chrono::milliseconds(20);
 constexpr double kMebi = 1 << 20;
+/// How long a process may live once it cannot answer any more.
+constexpr auto kGrace = std::chrono::milliseconds(500);
 /// A library that gets no memory often aborts: so it is taken where this share was used.
 constexpr double kNearLimit = 0.9;
 
@@ -100,6 +102,10 @@ class Supervision {
     const auto now = Clock::now();
     if (now < next_look_) return std::nullopt;
     next_look_ = now + kTick;
+    if (!worker_.hung_up()) alive_ = now;
+    if (now - alive_ > kGrace) {
+      return lost(CellStatus::crash, "the process closed the connection to its supervisor");
+    }
     const CellLimits& limits = options_.limits;
     const bool preparing = phase_ == CellPhase::prepare;
     const double allowed = preparing ? limits.prepare_timeout_s : limits.timeout_s;
@@ -169,6 +175,7 @@ class Supervision {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point phase_start_ = start_;
   Clock::time_point next_look_ = start_;
+  Clock::time_point alive_ = start_;  ///< when its connection was last seen to be open
   std::uint64_t last_ = 0;
   std::uint64_t peak_ = 0;
 };

@@ -36,6 +36,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kProgressInterval = std::chrono::milliseconds(100);
 constexpr std::size_t kReadAtOnce = 1 << 16;
+constexpr int kLookAtSocket = 1000;  // ms
 
 /// Stacks of threads and what the allocators hold back, on top of the memory that a cell may take.
 constexpr std::uint64_t kAllowance = 512 << 20;
@@ -54,10 +55,11 @@ void end_with_supervisor() {
   ::sigaction(SIGTERM, &action, nullptr);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   std::thread([] {
+    // Not for ever at a time: a socket stays open while it is polled, and the supervisor could not
+    // tell that this process had closed it.
     ::pollfd end{kWorkerSocket, POLLRDHUP, 0};
-    while (::poll(&end, 1, -1) < 0 && errno == EINTR) {
-    }
-    end_group(0);
+    while (end.revents == 0) ::poll(&end, 1, kLookAtSocket);
+    if ((end.revents & POLLNVAL) == 0) end_group(0);
   }).detach();
 }
 

@@ -37,6 +37,8 @@ class WorkerProcess {
 
   /// Whether it has ended by itself; messages it sent before may still come from wait().
   bool ended() const { return ended_; }
+  /// Whether it has closed its end of the socket, be it alive or not.
+  bool hung_up() const { return hung_up_; }
   /// How it ended: "was ended by signal 11 (Segmentation fault)", "ended with exit code 0".
   std::string describe_end() const;
   std::optional<int> exit_code() const;

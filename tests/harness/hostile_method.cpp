@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -36,9 +37,10 @@ constexpr std::size_t kMebi = 1 << 20;
   }
 }
 
-void follow_null() {
-  volatile int* nowhere = nullptr;
-  *nowhere = 1;
+/// The compiler must not see that there is nothing, or it makes something else of it.
+__attribute__((no_sanitize("undefined"))) void follow_null() {
+  volatile std::uintptr_t nowhere = 0;
+  *reinterpret_cast<volatile int*>(nowhere) = 1;
 }
 
 /// Far beyond any stack, though not for ever, which a compiler may take to be a mistake.

@@ -12,7 +12,8 @@ namespace fracbench {
 /// that it leaves write their numbers into the file `children`.
 std::unique_ptr<Method> make_hostile_method();
 
-/// Box, six impacts, the method "halves" and the hostile one, with limits of 1 s (60 s for halves) and 400 MiB.
+/// Box, six impacts, the method "halves" and the hostile one, with limits of 1 s (60 s for halves)
+/// and 400 MiB.
 Suite hostile_suite(const Catalog& catalog);
 
 }  // namespace fracbench
