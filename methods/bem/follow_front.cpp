@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "geometry/measures.h"
 #include "methods/bem/front_loop.h"
+#include "methods/bem/remesh_sheet.h"
 
 namespace fracbench::bem {
 namespace {
@@ -20,12 +21,6 @@ constexpr double kNewRow = 0.35;  ///< boundary vertices that move farther leave
 constexpr int kPasses = 6;
 
 constexpr std::int32_t kNone = -1;
-
-struct Edge {
-  std::int32_t a, b;         ///< a < b
-  std::int32_t left, right;  ///< faces; right: kNone on the boundary
-  double length;
-};
 
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 
@@ -39,8 +34,8 @@ class Follower {
     collapse_boundary();
     tag_runs();
     split_boundary();
-    split_edges();
-    collapse_edges();
+    split_long_edges(mesh_, kLongest * size_);
+    collapse_short_edges(mesh_, boundary_vertices(), kShortest * size_, size_);
     compact();
     update_boundary(crack_);
     require_disc();
@@ -51,15 +46,11 @@ class Follower {
   void collapse_boundary();
   void tag_runs();
   void split_boundary();
-  void split_edges();
-  void collapse_edges();
+  std::vector<std::uint8_t> boundary_vertices() const;
   void compact();
   void require_disc() const;
 
   void split_at(std::size_t marker, std::size_t from, std::size_t to);
-  bool may_collapse(std::int32_t gone, std::int32_t kept, std::size_t shared) const;
-  void collapse(std::int32_t gone, std::int32_t kept);
-  std::vector<Edge> edges() const;
   std::size_t face_of_edge(std::int32_t from, std::int32_t to) const;
   const Vec3& at(std::int32_t v) const { return mesh_.vertices[v]; }
 
@@ -68,31 +59,6 @@ class Follower {
   std::vector<FrontMarker>& front_;
   double size_;
 };
-
-std::vector<Edge> Follower::edges() const {
-  std::vector<Edge> all;
-  all.reserve(mesh_.faces.size() * 3);
-  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t a = mesh_.faces[f][k], b = mesh_.faces[f][(k + 1) % 3];
-      all.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(f), kNone, 0});
-    }
-  }
-  std::sort(all.begin(), all.end(), [](const Edge& x, const Edge& y) {
-    return std::tie(x.a, x.b, x.left) < std::tie(y.a, y.b, y.left);
-  });
-  std::vector<Edge> merged;
-  merged.reserve(all.size() / 2 + 1);
-  for (const Edge& edge : all) {
-    if (!merged.empty() && merged.back().a == edge.a && merged.back().b == edge.b) {
-      merged.back().right = edge.left;
-    } else {
-      merged.push_back(edge);
-      merged.back().length = (at(edge.a) - at(edge.b)).norm();
-    }
-  }
-  return merged;
-}
 
 std::size_t Follower::face_of_edge(std::int32_t from, std::int32_t to) const {
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
@@ -216,39 +182,6 @@ void Follower::grow() {
   }
 }
 
-/// Whether `gone` may be drawn to `kept`, with which it shares an edge of `shared` triangles.
-bool Follower::may_collapse(std::int32_t gone, std::int32_t kept, std::size_t shared) const {
-  std::vector<std::int32_t> near_gone, near_kept;
-  for (const Face& face : mesh_.faces) {
-    const bool has_gone = std::find(face.begin(), face.end(), gone) != face.end();
-    const bool has_kept = std::find(face.begin(), face.end(), kept) != face.end();
-    if (has_gone) near_gone.insert(near_gone.end(), face.begin(), face.end());
-    if (has_kept) near_kept.insert(near_kept.end(), face.begin(), face.end());
-    if (!has_gone || has_kept) continue;
-    std::array<Vec3, 3> p;
-    for (int k = 0; k < 3; ++k) p[k] = at(face[k] == gone ? kept : face[k]);
-    const Vec3 before = normal_of(at(face[0]), at(face[1]), at(face[2]));
-    const Vec3 after = normal_of(p[0], p[1], p[2]);
-    if (after.norm() < 1e-3 * size_ * size_) return false;
-    if (before.dot(after) < 0.5 * before.norm() * after.norm()) return false;
-  }
-  for (auto* near : {&near_gone, &near_kept}) {
-    std::sort(near->begin(), near->end());
-    near->erase(std::unique(near->begin(), near->end()), near->end());
-  }
-  std::vector<std::int32_t> common;
-  std::set_intersection(near_gone.begin(), near_gone.end(), near_kept.begin(), near_kept.end(),
-                        std::back_inserter(common));
-  return common.size() == shared + 2;
-}
-
-void Follower::collapse(std::int32_t gone, std::int32_t kept) {
-  for (Face& face : mesh_.faces) std::replace(face.begin(), face.end(), gone, kept);
-  std::erase_if(mesh_.faces, [](const Face& face) {
-    return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
-  });
-}
-
 /// Boundary edges that have become short; a run that advances keeps a vertex.
 void Follower::collapse_boundary() {
   std::vector<std::size_t> coarse = coarse_markers(crack_);
@@ -269,14 +202,14 @@ void Follower::collapse_boundary() {
     if (a.state != b.state) first = b.state == FrontState::advancing;
     FrontMarker* gone = first ? &a : &b;
     FrontMarker* kept = first ? &b : &a;
-    if (!may_collapse(gone->coarse, kept->coarse, 1)) {
+    if (!may_collapse(mesh_, gone->coarse, kept->coarse, size_)) {
       std::swap(gone, kept);
-      if (a.state != b.state || !may_collapse(gone->coarse, kept->coarse, 1)) {
+      if (a.state != b.state || !may_collapse(mesh_, gone->coarse, kept->coarse, size_)) {
         ++c;
         continue;
       }
     }
-    collapse(gone->coarse, kept->coarse);
+    collapse_edge(mesh_, gone->coarse, kept->coarse);
     gone->coarse = kNone;
     coarse = coarse_markers(crack_);
     c = c > 0 ? c - 1 : 0;
@@ -359,64 +292,12 @@ void Follower::split_boundary() {
   }
 }
 
-/// Halves the long edges inside the sheet, the longest first.
-void Follower::split_edges() {
-  for (int pass = 0; pass < kPasses; ++pass) {
-    std::vector<Edge> all = edges();
-    std::erase_if(all, [&](const Edge& edge) {
-      return edge.right == kNone || edge.length <= kLongest * size_;
-    });
-    if (all.empty()) return;
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Edge& x, const Edge& y) { return x.length > y.length; });
-    std::vector<std::uint8_t> touched(mesh_.faces.size(), 0);
-    const auto longest_side = [&](std::int32_t f) {
-      double longest = 0;
-      for (int k = 0; k < 3; ++k) {
-        longest = std::max(longest, (mesh_.corner(f, k) - mesh_.corner(f, (k + 1) % 3)).norm());
-      }
-      return longest * (1 - 1e-12);
-    };
-    for (const Edge& edge : all) {
-      if (touched[edge.left] || touched[edge.right]) continue;
-      // The longest side of a triangle first, or ever thinner triangles come of a long boundary
-      // edge that cannot be split.
-      if (longest_side(edge.left) > edge.length || longest_side(edge.right) > edge.length) continue;
-      const auto middle = static_cast<std::int32_t>(mesh_.vertices.size());
-      mesh_.vertices.push_back(0.5 * (at(edge.a) + at(edge.b)));
-      for (const std::int32_t f : {edge.left, edge.right}) {
-        touched[f] = 1;
-        Face half = mesh_.faces[f];
-        std::replace(half.begin(), half.end(), edge.a, middle);
-        std::replace(mesh_.faces[f].begin(), mesh_.faces[f].end(), edge.b, middle);
-        mesh_.faces.push_back(half);
-      }
-    }
-  }
-}
-
-/// Draws short edges inside the sheet together; boundary vertices stay.
-void Follower::collapse_edges() {
+std::vector<std::uint8_t> Follower::boundary_vertices() const {
   std::vector<std::uint8_t> on_boundary(mesh_.vertices.size(), 0);
   for (const FrontMarker& m : front_) {
     if (m.coarse >= 0) on_boundary[m.coarse] = 1;
   }
-  bool any = true;
-  for (int pass = 0; any && pass < kPasses; ++pass) {
-    any = false;
-    std::vector<std::uint8_t> touched(mesh_.vertices.size(), 0);
-    for (const Edge& edge : edges()) {
-      if (edge.right == kNone || edge.length >= kShortest * size_) continue;
-      if (on_boundary[edge.a] && on_boundary[edge.b]) continue;
-      if (touched[edge.a] || touched[edge.b]) continue;
-      const std::int32_t gone = on_boundary[edge.a] ? edge.b : edge.a;
-      const std::int32_t kept = gone == edge.a ? edge.b : edge.a;
-      if (!may_collapse(gone, kept, 2)) continue;
-      collapse(gone, kept);
-      touched[gone] = touched[kept] = 1;
-      any = true;
-    }
-  }
+  return on_boundary;
 }
 
 void Follower::compact() {
@@ -450,8 +331,8 @@ void Follower::require_disc() const {
     next[loop[c]] = loop[(c + 1) % loop.size()];
   }
   std::size_t boundary_edges = 0;
-  for (const Edge& edge : edges()) {
-    if (edge.right != kNone) continue;
+  for (const SheetEdge& edge : sheet_edges(mesh_)) {
+    if (edge.right >= 0) continue;
     ++boundary_edges;
     if (next[edge.a] != edge.b && next[edge.b] != edge.a) {
       throw MethodFailure("crack front: the sheet has come apart");
