@@ -6,22 +6,45 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 
 #include "core/available_memory.h"
+#include "methods/bem/blas_threads.h"
 #include "methods/bem/elastic_operator.h"
 
 namespace fracbench::bem {
 namespace {
 
-// Below this many unknowns one thread factorises in a tenth of a second or two, and several only
-// wait for each other where the processor is shared.
-constexpr Eigen::Index kThreadedUnknowns = 3000;
-
-void set_blas_threads(Eigen::Index unknowns, int threads) {
-  openblas_set_num_threads(unknowns < kThreadedUnknowns ? 1 : threads);
+// Cholesky's factor in the lower triangle, in place, by panels: between them the work can be
+// stopped and tells how far it has come. Throws MethodFailure.
+void factorise(Eigen::MatrixXd& matrix, const Context& context) {
+  constexpr int kPanel = 768;
+  const int n = static_cast<int>(matrix.rows());
+  for (int first = 0; first < n; first += kPanel) {
+    context.stop_if_asked();
+    const double done = 1 - std::pow(1 - static_cast<double>(first) / n, 3);
+    context.progress.update("factorising the body's matrix", done);
+    const int size = std::min(kPanel, n - first);
+    const int rest = n - first - size;
+    double* const diagonal = &matrix(first, first);
+    const lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', size, diagonal, n);
+    if (info != 0) {
+      throw MethodFailure(fmt::format(
+          "the boundary element matrix of {} unknowns is not positive definite (Cholesky "
+          "stopped at {}): the surface has very slender triangles or nearly touches "
+          "itself; remesh it",
+          n, first + info));
+    }
+    if (rest == 0) continue;
+    double* const below = diagonal + size;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, size, 1,
+                diagonal, n, below, n);
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, size, -1, below, n, 1,
+                &matrix(first + size, first + size), n);
+  }
 }
 
 // Every side must belong to two triangles that pass it in opposite directions.
@@ -105,13 +128,13 @@ ElasticCost predict_cost(std::size_t triangles) {
   // The matrix, a strip of integrals, the surface and the rigid motions.
   cost.bytes =
       static_cast<std::uint64_t>(8 * unknowns * unknowns + n * (6 * 32 * 8 + 16 * 72 + 600));
-  cost.assembly_seconds = 0.08e-6 * n * n;
-  cost.factor_seconds = unknowns * unknowns * unknowns / 3 / 25e9;
+  cost.assembly_seconds = 45e-6 * n + 0.07e-6 * n * n;
+  cost.factor_seconds = unknowns * unknowns * unknowns / 3 / 35e9;
   return cost;
 }
 
 ElasticBody::ElasticBody(const TriangleMesh& mesh, const Material& material, Context& context)
-    : material_(material) {
+    : material_(material), threads_(context.threads) {
   check_elastic_material(material);
   const ElasticCost cost = predict_cost(mesh.faces.size());
   const std::uint64_t available = available_memory();
@@ -134,14 +157,7 @@ ElasticBody::ElasticBody(const TriangleMesh& mesh, const Material& material, Con
   set_blas_threads(n, context.threads);
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, static_cast<int>(rigid_.cols()),
               factor_.trace() / n, rigid_.data(), n, 1, factor_.data(), n);
-  const lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, factor_.data(), n);
-  if (info != 0) {
-    throw MethodFailure(
-        fmt::format("the boundary element matrix of {} unknowns is not positive definite (Cholesky "
-                    "stopped at {}): the surface has very slender triangles or nearly touches "
-                    "itself; remesh it",
-                    n, info));
-  }
+  factorise(factor_, context);
 }
 
 Eigen::VectorXd ElasticBody::displacements(const Eigen::Matrix3Xd& tractions,
@@ -150,13 +166,18 @@ Eigen::VectorXd ElasticBody::displacements(const Eigen::Matrix3Xd& tractions,
       0.5 * traction_moments(elements_, tractions) -
       apply_adjoint_double_layer(elements_, tractions, elements_, material_, context);
   load -= rigid_ * (rigid_.transpose() * load);
-  openblas_set_num_threads(1);  // one right-hand side: the memory is the limit
   solve_in_place(load);
   load -= rigid_ * (rigid_.transpose() * load);
   return load.col(0);
 }
 
+void ElasticBody::use_threads_for(Eigen::Index right_sides) const {
+  // For few right-hand sides the memory is the limit.
+  set_blas_threads(right_sides < 32 ? 0 : factor_.rows(), threads_);
+}
+
 void ElasticBody::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const {
+  use_threads_for(right_sides.cols());
   const auto n = static_cast<lapack_int>(factor_.rows());
   LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', n, static_cast<lapack_int>(right_sides.cols()),
                  factor_.data(), n, right_sides.data(),
@@ -164,6 +185,7 @@ void ElasticBody::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const 
 }
 
 void ElasticBody::solve_lower_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const {
+  use_threads_for(right_sides.cols());
   const auto n = static_cast<int>(factor_.rows());
   cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n,
               static_cast<int>(right_sides.cols()), 1, factor_.data(), n, right_sides.data(),

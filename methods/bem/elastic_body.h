@@ -43,14 +43,19 @@ class ElasticBody {
   /// balance (what is not is left out); without rigid motion.
   Eigen::VectorXd displacements(const Eigen::Matrix3Xd& tractions, const Context& context) const;
 
+  // Both solvers use the threads of the constructor's context where that pays.
+
   /// Replaces B by A^-1 B for A = D + alpha Q Q^T = L L^T; rows of B: unknowns.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const;
   /// Replaces B by L^-1 B, so that B^T A^-1 B is its product with itself.
   void solve_lower_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const;
 
  private:
+  void use_threads_for(Eigen::Index right_sides) const;
+
   BoundaryElements elements_;
   Material material_;
+  int threads_ = 1;
   Eigen::MatrixXd rigid_;
   Eigen::MatrixXd factor_;  ///< L in the lower triangle; above it: not used
 };

@@ -1,6 +1,7 @@
 #include "methods/bem/galerkin_integrals.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "methods/bem/touching_pairs.h"
 
@@ -12,9 +13,9 @@ namespace {
 constexpr double kFarRatio = 8.0;     // 3 points
 constexpr double kMiddleRatio = 2.2;  // 6 points
 constexpr double kNearRatio = 1.2;    // 12 points; nearer: cut
-// How often each triangle of a pair is cut at most. Pairs that touch without sharing a corner end
-// here, with an error of about 4^-depth.
-constexpr int kMostCuts = 6;
+// How often each triangle of a pair is halved at most. Pairs that touch without sharing a corner
+// end here, with an error of about 2^-depth.
+constexpr int kMostCuts = 11;
 
 // Turns corners so that those shared come first, in the same order in both. Returns how many.
 int bring_shared_first(const Corners& test, const Corners& trial, std::array<int, 3>& test_order,
@@ -52,32 +53,33 @@ PairIntegrator::PairIntegrator(bool double_layer) : double_layer_(double_layer) 
   queues_[2].points = 12;
 }
 
-std::array<PairIntegrator::Part, 4> PairIntegrator::quarters(const Part& part) {
-  std::array<Part, 4> parts;
-  Corners middles;
-  std::array<std::array<double, 3>, 3> middle_shapes;
+std::array<PairIntegrator::Part, 2> PairIntegrator::halves(const Part& part) {
+  int longest = 0;
+  double length = 0;
   for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    middles[k] = (part.corners[k] + part.corners[next]) / 2;
-    for (int c = 0; c < 3; ++c) {
-      middle_shapes[k][c] = (part.shape[3 * k + c] + part.shape[3 * next + c]) / 2;
+    const double side = (part.corners[(k + 1) % 3] - part.corners[k]).squaredNorm();
+    if (side > length) {
+      length = side;
+      longest = k;
     }
   }
-  for (int k = 0; k < 4; ++k) {
-    Part& quarter = parts[k];
-    quarter.depth = part.depth + 1;
-    quarter.area = part.area / 4;
-    quarter.radius = part.radius / 2;
-    for (int j = 0; j < 3; ++j) {
-      // Quarters 0 to 2 keep corner k; quarter 3 is the middle one.
-      const bool is_corner = k < 3 && j == 0;
-      const int middle = k == 3 ? j : (j == 1 ? k : (k + 2) % 3);
-      quarter.corners[j] = is_corner ? part.corners[k] : middles[middle];
-      for (int c = 0; c < 3; ++c) {
-        quarter.shape[3 * j + c] = is_corner ? part.shape[3 * k + c] : middle_shapes[middle][c];
-      }
+  const int next = (longest + 1) % 3;
+  std::array<Part, 2> parts = {part, part};
+  for (int half = 0; half < 2; ++half) {
+    Part& own = parts[half];
+    const int moved = half == 0 ? next : longest;
+    own.corners[moved] = (part.corners[longest] + part.corners[next]) / 2;
+    for (int c = 0; c < 3; ++c) {
+      own.shape[3 * moved + c] = (part.shape[3 * longest + c] + part.shape[3 * next + c]) / 2;
     }
-    quarter.centroid = (quarter.corners[0] + quarter.corners[1] + quarter.corners[2]) / 3;
+    own.area = part.area / 2;
+    own.depth = part.depth + 1;
+    own.centroid = (own.corners[0] + own.corners[1] + own.corners[2]) / 3;
+    double squared = 0;
+    for (const Vec3& corner : own.corners) {
+      squared = std::max(squared, (corner - own.centroid).squaredNorm());
+    }
+    own.radius = std::sqrt(squared);
   }
   return parts;
 }
@@ -85,12 +87,11 @@ std::array<PairIntegrator::Part, 4> PairIntegrator::quarters(const Part& part) {
 void PairIntegrator::add(const Part& test, const Part& trial, PairIntegrals& target) {
   const double distance = (test.centroid - trial.centroid).norm();
   const double ratio = distance / (test.radius + trial.radius);
-  const bool may_cut = std::min(test.depth, trial.depth) < kMostCuts;
-  if (ratio < kNearRatio && may_cut) {
+  if (ratio < kNearRatio && std::min(test.depth, trial.depth) < kMostCuts) {
     const bool cut_test =
         trial.depth >= kMostCuts || (test.depth < kMostCuts && test.radius >= trial.radius);
-    for (const Part& quarter : quarters(cut_test ? test : trial)) {
-      cut_test ? add(quarter, trial, target) : add(test, quarter, target);
+    for (const Part& half : halves(cut_test ? test : trial)) {
+      cut_test ? add(half, trial, target) : add(test, half, target);
     }
     return;
   }

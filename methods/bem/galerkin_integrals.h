@@ -23,7 +23,7 @@ struct PairIntegrals {
 
 /// Integrates one test triangle against many trial triangles, in batches. Pairs that share corners
 /// (the same coordinates, whatever their indices) are integrated after removing the singularity;
-/// others by rules whose points grow with nearness, triangles being cut into four where they are
+/// others by rules whose points grow with nearness, triangles being cut in half where they are
 /// too near. Relative errors, measured by the tests: 1e-5 of the integral of 1/|r| for triangles
 /// of ordinary shape.
 class PairIntegrator {
@@ -62,7 +62,8 @@ class PairIntegrator {
   void add(const Part& test, const Part& trial, PairIntegrals& target);
   void flush(Queue& queue);
   void flush_all();
-  static std::array<Part, 4> quarters(const Part& part);
+  /// Cut across its longest side.
+  static std::array<Part, 2> halves(const Part& part);
 
   bool double_layer_;
   std::array<Queue, 3> queues_;
