@@ -8,16 +8,18 @@
 #include <utility>
 
 #include "core/error.h"
+#include "methods/bem/blas_threads.h"
 #include "methods/bem/elastic_operator.h"
 #include "methods/bem/rigid_parts.h"
 
 namespace fracbench::bem {
 namespace {
 
-/// Solves a x = b in place; `a` is destroyed.
-void solve_positive(Eigen::MatrixXd& a, Eigen::VectorXd& b) {
+/// Solves a x = b in place on at most `threads` threads of BLAS; `a` is destroyed.
+void solve_positive(Eigen::MatrixXd& a, Eigen::VectorXd& b, int threads) {
   const auto size = static_cast<lapack_int>(a.rows());
   if (size == 0) return;
+  set_blas_threads(size, threads);
   lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', size, a.data(), size);
   if (info == 0) {
     info = LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', size, 1, a.data(), size, b.data(), size);
@@ -65,7 +67,7 @@ Openings openings_in_infinite_body(std::span<const CrackSheet> cracks, const Mat
     for (Eigen::Index i = 0; i < count; ++i) matrix(i, j) = whole(free[i], free[j]);
   }
   context.stop_if_asked();
-  solve_positive(matrix, solution);
+  solve_positive(matrix, solution, context.threads);
 
   Eigen::VectorXd all = Eigen::VectorXd::Zero(first);
   for (Eigen::Index i = 0; i < count; ++i) all[free[i]] = solution[i];
@@ -190,7 +192,7 @@ CrackedSolution CrackSystem::solve(const CrackedSurface& body, const Eigen::Matr
   const double scale = matrix.trace() / static_cast<double>(matrix.rows());
   matrix.selfadjointView<Eigen::Lower>().rankUpdate(rigid, scale);
   solution -= rigid * (rigid.transpose() * solution);
-  solve_positive(matrix, solution);
+  solve_positive(matrix, solution, context.threads);
 
   CrackedSolution result;
   for (std::size_t v = 0; v < body.surface.vertices.size(); ++v) {
