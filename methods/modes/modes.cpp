@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -11,6 +13,8 @@
 #include "methods/modes/cage.h"
 #include "methods/modes/fracture_modes.h"
 #include "methods/modes/model.h"
+#include "methods/modes/validation/impact_cases.h"
+#include "methods/modes/validation/solver_cases.h"
 
 namespace fracbench {
 
@@ -232,6 +236,12 @@ std::unique_ptr<Breakable> ModesMethod::load(const std::filesystem::path& folder
                                              const Target& target, const Options& options) const {
   const Settings settings(options, target.material);
   return body_of(target, modes::load_model(folder, target, settings.text()), options);
+}
+
+std::vector<ValidationCase> ModesMethod::validation() const {
+  std::vector<ValidationCase> cases = modes::impact_validation_cases();
+  std::ranges::move(modes::solver_validation_cases(), std::back_inserter(cases));
+  return cases;
 }
 
 }  // namespace fracbench

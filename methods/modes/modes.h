@@ -15,6 +15,7 @@ class ModesMethod : public Method {
                                      const Options& options, Context& context) const override;
   std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,
                                   const Options& options) const override;
+  std::vector<ValidationCase> validation() const override;
 };
 
 }  // namespace fracbench

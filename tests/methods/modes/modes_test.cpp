@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "geometry/check_mesh.h"
 #include "geometry/measures.h"
+#include "methods/modes/validation/impact_cases.h"
 #include "methods/registry.h"
 #include "scenarios/given_impact.h"
 #include "tests/methods/cvd/bodies.h"
@@ -127,6 +128,23 @@ TEST(ModesMethod, RefusesOptionsThatContradictEachOther) {
   mentions({{"settings", std::string("paper")}, {"modes", std::int64_t{61}}}, "5 to 60");
   mentions({{"settings", std::string("paper-fine")}, {"modes", std::int64_t{11}}}, "paper-fine");
 }
+
+class ImpactCase : public ::testing::TestWithParam<ValidationCase> {};
+
+TEST_P(ImpactCase, AgreesWithItsClosedForm) {
+  test::Surroundings surroundings;
+  Context context = surroundings.context();
+  for (const Accuracy& a : GetParam().run(context)) {
+    EXPECT_TRUE(a.pass()) << a.name << ": " << a.computed << " for " << a.expected;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, ImpactCase, ::testing::ValuesIn(modes::impact_validation_cases()),
+                         [](const auto& of) {
+                           std::string name = of.param.name;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 TEST(ModesMethod, RefusesMoreModesThanTheTetsHave) {
   const Target target = bar();
