@@ -377,16 +377,20 @@ TEST_F(WorkerPoolTest, AKilledSupervisorGoesOnWhereItWas) {
                                              "method.halves.wait=0.05"};
   const Plan plan = plan_with(settings);
   ASSERT_TRUE(run(plan, {.folder = base / "alone"}).complete());
-  std::size_t partly = 0;
-  for (int attempt = 0; attempt < 5; ++attempt) {
+  std::size_t there = 0;
+  for (int attempt = 1; attempt <= 3; ++attempt) {
     const ::pid_t supervisor = start_toy_run(folder, settings);
-    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    const auto deadline = Clock::now() + std::chrono::seconds(20);
+    while (there < 5u * attempt && Clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      there = list_records(folder).size();
+    }
     ::kill(supervisor, SIGKILL);
     ::waitpid(supervisor, nullptr, 0);
-    const std::size_t there = list_records(folder).size();
-    partly += there > 0 && there < plan.cells.size();
+    there = list_records(folder).size();
+    EXPECT_GE(there, 5u * attempt);
+    EXPECT_LT(there, plan.cells.size());
   }
-  EXPECT_GE(partly, 1);
   ASSERT_TRUE(run(plan, {.folder = folder, .jobs = 2}).complete());
   EXPECT_EQ(digests(folder), digests(base / "alone"));
 }
