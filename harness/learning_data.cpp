@@ -35,6 +35,7 @@ std::string shortage(const LearningShape& shape, const LearningSplit& split) {
   if (failed != shape.records.end()) {
     text += fmt::format("; {} failed: {}", failed->scenario, failed->reason);
   }
+  if (broken + shape.count(LearningRole::unbroken) == 0) return text;
   if (broken == 0) {
     return text +
            "; faster balls may break it, or break_test = \"eq2-patch\" in [learning.scenario] "

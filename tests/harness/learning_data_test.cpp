@@ -27,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class LearningDataTest : public testing::Test {
  protected:
@@ -166,6 +167,14 @@ TEST_F(LearningDataTest, SaysWithNumbersThatTooFewCollisionsBrokeAShape) {
       make(suite(false, {"learning.scenario.speed=5"}), base / "slow", 1, {"box"});
   EXPECT_EQ(none.index->shapes[0].broken(), 0u);
   EXPECT_THAT(none.shortages.at(0), HasSubstr("eq2-patch"));
+  // Where the method is to blame, other balls are no way out.
+  const LearningResult failed =
+      make(suite(false, {"learning.options.trouble=failure", "learning.scenario.speed=100",
+                         "learning.count=3"}),
+           base / "failed", 1, {"box"});
+  EXPECT_EQ(failed.index->shapes[0].count(LearningRole::failed), 3u);
+  EXPECT_THAT(failed.shortages.at(0), AllOf(HasSubstr("the plane misses the box"),
+                                            Not(HasSubstr("eq2-patch")), Not(HasSubstr("count"))));
 }
 
 TEST_F(LearningDataTest, IsContinuedWithMoreCollisionsAndRefusesOtherValues) {

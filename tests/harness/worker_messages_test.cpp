@@ -107,7 +107,9 @@ TEST(OutputTail, KeepsTheLastLinesAsPrintableText) {
 TEST(CellRequests, GiveAWorkerTheSameCell) {
   const ToyWorld world;
   const Catalog catalog = world.catalog();
-  const Plan plan = make_plan(toy_suite(catalog), catalog);
+  Plan plan = make_plan(toy_suite(catalog), catalog);
+  plan.learning_folder = "/somewhere/learning";
+  for (PlannedShape& shape : plan.shapes) shape.learning_digest = "digest of " + shape.label;
   for (const Cell& cell : plan.cells) {
     WorkerJob job = decode_job(encode_job(plan, cell, 12345), catalog);
     const Cell received = decode_cell(encode_cell(plan, cell), job.plan);
@@ -117,6 +119,8 @@ TEST(CellRequests, GiveAWorkerTheSameCell) {
     EXPECT_EQ(received.prepare_seed, cell.prepare_seed);
     EXPECT_EQ(job.plan.methods.at(0).options.values(), plan.methods[cell.method].options.values());
     EXPECT_EQ(job.plan.shapes.at(0).digest, plan.shapes[cell.shape].digest);
+    EXPECT_EQ(job.plan.learning_folder, plan.learning_folder);
+    EXPECT_EQ(job.plan.shapes[0].learning_digest, plan.shapes[cell.shape].learning_digest);
     EXPECT_EQ(job.plan.shapes[0].shape.notes, plan.shapes[cell.shape].shape.notes);
     EXPECT_EQ(job.plan.shapes[0].shape.mesh.faces, plan.shapes[cell.shape].shape.mesh.faces);
   }
