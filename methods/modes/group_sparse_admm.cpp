@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 
 /// The Frobenius norm of every group of g rows.
 VectorXd group_norms(const MatrixXd& field, int g) {
+  if (g == 1 && field.cols() == 1) return field.cwiseAbs();
   VectorXd norms(field.rows() / g);
   for (Eigen::Index f = 0; f < norms.size(); ++f) norms[f] = field.middleRows(g * f, g).norm();
   return norms;
@@ -27,6 +28,9 @@ VectorXd group_norms(const MatrixXd& field, int g) {
 
 /// The proximal map of sum of threshold_f |t_f|.
 MatrixXd shrink(const MatrixXd& t, const VectorXd& thresholds, int g) {
+  if (g == 1 && t.cols() == 1) {
+    return t.col(0) - t.col(0).cwiseMax(-thresholds).cwiseMin(thresholds);
+  }
   MatrixXd z(t.rows(), t.cols());
   for (Eigen::Index f = 0; f < thresholds.size(); ++f) {
     const double norm = t.middleRows(g * f, g).norm();
@@ -55,6 +59,7 @@ GroupSparseSolver::GroupSparseSolver(const GroupSparseEnergy& energy, int compon
     : energy_(energy),
       components_(components),
       jump_rows_(energy.jump),
+      jump_columns_(energy.jump.transpose()),
       mass_kernel_(energy.mass * energy.kernel),
       orthogonal_(energy.size() * components, 0) {
   jump_square_ = energy.jump.transpose() * energy.jump;
@@ -139,7 +144,8 @@ struct GroupSparseSolver::Run {
   /// One step of the iteration t -> alpha D u + (1 - alpha) z + w with z + w = t.
   MatrixXd step(const MatrixXd& t) {
     z = shrink(t, thresholds, energy.group_rows);
-    MatrixXd right = energy.jump.transpose() * (rho * (2 * z - t));
+    const MatrixXd pull = rho * (2 * z - t);  // evaluated once: the product reads it often
+    MatrixXd right = solver.jump_columns_ * pull;
     solver.solve_in_place(right, rho);
     VectorXd violation = -constraints.transpose() * right.reshaped();
     violation[violation.size() - 1] += 1;

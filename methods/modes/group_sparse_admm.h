@@ -100,8 +100,9 @@ class GroupSparseSolver {
   const GroupSparseEnergy& energy_;
   int components_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> jump_rows_;
-  Eigen::SparseMatrix<double> jump_square_;  ///< D^T D, grounded
-  Eigen::MatrixXd mass_kernel_;              ///< M n
+  Eigen::SparseMatrix<double, Eigen::RowMajor> jump_columns_;  ///< D^T
+  Eigen::SparseMatrix<double> jump_square_;                    ///< D^T D, grounded
+  Eigen::MatrixXd mass_kernel_;                                ///< M n
   SparseCholesky cholesky_;
   double factored_penalty_ = 0;  ///< of cholesky_; 0: none
   Eigen::MatrixXd orthogonal_;   ///< N c x j: the fields a_j, component by component
