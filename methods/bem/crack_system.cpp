@@ -15,20 +15,76 @@
 namespace fracbench::bem {
 namespace {
 
-/// Solves a x = b in place on at most `threads` threads of BLAS; `a` is destroyed.
-void solve_positive(Eigen::MatrixXd& a, Eigen::VectorXd& b, int threads) {
+/// The lower Cholesky factor in place; 0, or the (first) row at which `a` is not positive, from 1.
+lapack_int factor(Eigen::MatrixXd& a, int threads) {
   const auto size = static_cast<lapack_int>(a.rows());
-  if (size == 0) return;
   set_blas_threads(size, threads);
-  lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', size, a.data(), size);
-  if (info == 0) {
-    info = LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', size, 1, a.data(), size, b.data(), size);
+  return size == 0 ? 0 : LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', size, a.data(), size);
+}
+
+void substitute(const Eigen::MatrixXd& factor, Eigen::VectorXd& b) {
+  const auto size = static_cast<lapack_int>(factor.rows());
+  if (size == 0) return;
+  LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', size, 1, factor.data(), size, b.data(), size);
+}
+
+void fail_unless(bool good, Eigen::Index size) {
+  if (good) return;
+  throw MethodFailure("the system of the cracks, " + std::to_string(size) +
+                      " unknowns, cannot be factored: the mesh of the body or of a crack is too "
+                      "poor, or the body too thin for its triangles");
+}
+
+/// Solves a x = b in place; `a` is destroyed.
+void solve_positive(Eigen::MatrixXd& a, Eigen::VectorXd& b, int threads) {
+  fail_unless(factor(a, threads) == 0, a.rows());
+  substitute(a, b);
+  fail_unless(b.allFinite(), a.rows());
+}
+
+/// A pivot below this share of the matrix's own diagonal counts as none: an unknown that the ones
+/// before it determine already, up to the errors of the integrals.
+constexpr double kLeastPivot = 1e-4;
+
+/// The same, lower triangle of `a` only. Where the matrix is not positive definite in its rows from
+/// `first_sheet` on, unknowns are held at 0. How many were.
+std::size_t solve_holding(Eigen::MatrixXd& a, Eigen::VectorXd& b, Eigen::Index first_sheet,
+                          int threads) {
+  Eigen::MatrixXd whole = a;
+  if (factor(whole, threads) == 0) {
+    substitute(whole, b);
+    fail_unless(b.allFinite(), a.rows());
+    return 0;
   }
-  if (info != 0 || !b.allFinite()) {
-    throw MethodFailure("the system of the cracks, " + std::to_string(size) +
-                        " unknowns, cannot be factored (LAPACK says " + std::to_string(info) +
-                        "): the mesh of the body or of a crack is too poor");
+  whole.resize(0, 0);
+  // The surface's own part, then column by column what is left for the sheets.
+  const Eigen::Index size = a.rows();
+  const Eigen::Index rest = size - first_sheet;
+  Eigen::MatrixXd surface = a.topLeftCorner(first_sheet, first_sheet);
+  fail_unless(factor(surface, threads) == 0, size);
+  a.topLeftCorner(first_sheet, first_sheet) = surface;
+  auto below = a.bottomLeftCorner(rest, first_sheet);
+  surface.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+  auto sheets = a.bottomRightCorner(rest, rest);
+  const Eigen::VectorXd diagonal = sheets.diagonal();
+  sheets.selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+  std::size_t held = 0;
+  for (Eigen::Index j = 0; j < rest; ++j) {
+    auto column = sheets.col(j).tail(rest - j);
+    column.noalias() -= sheets.block(j, 0, rest - j, j) * sheets.row(j).head(j).transpose();
+    if (column[0] > kLeastPivot * diagonal[j]) {
+      column /= std::sqrt(column[0]);
+    } else {
+      ++held;
+      a.row(first_sheet + j).head(first_sheet + j).setZero();
+      column.setZero();
+      column[0] = 1;
+      b[first_sheet + j] = 0;
+    }
   }
+  substitute(a, b);
+  fail_unless(b.allFinite(), size);
+  return held;
 }
 
 std::vector<char> on_boundary(const CrackSheet& sheet) {
@@ -165,8 +221,34 @@ Unknowns make_unknowns(const CrackedSurface& body, const std::vector<std::size_t
 
 }  // namespace
 
-CrackedSolution CrackSystem::solve(const CrackedSurface& body, const Eigen::Matrix3Xd& tractions,
-                                   const Context& context) {
+Eigen::Matrix3Xd CrackSystem::tractions(const BoundaryElements& sheet) {
+  const auto key_of = [&](std::size_t t) {
+    std::array<double, 9> key{};
+    const Corners corners = sheet.corners(t);
+    for (int j = 0; j < 9; ++j) key[j] = corners[j / 3][j % 3];
+    return key;
+  };
+  std::vector<std::size_t> fresh;
+  std::vector<Vec3> points;
+  for (std::size_t t = 0; t < sheet.size(); ++t) {
+    if (known_tractions_.contains(key_of(t))) continue;
+    fresh.push_back(t);
+    const Corners corners = sheet.corners(t);
+    for (int k = 0; k < 3; ++k) points.emplace_back((corners[k] + corners[(k + 1) % 3]) / 2);
+  }
+  const std::vector<Mat3> stresses = points.empty() ? std::vector<Mat3>{} : stress_(points);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    const Mat3 mean = (stresses[3 * i] + stresses[3 * i + 1] + stresses[3 * i + 2]) / 3;
+    known_tractions_[key_of(fresh[i])] = mean * sheet.normals[fresh[i]];
+  }
+  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(sheet.size()));
+  for (std::size_t t = 0; t < sheet.size(); ++t) {
+    result.col(static_cast<Eigen::Index>(t)) = known_tractions_.at(key_of(t));
+  }
+  return result;
+}
+
+CrackedSolution CrackSystem::solve(const CrackedSurface& body, const Context& context) {
   std::vector<BoundaryElements> parts{make_boundary_elements(body.surface)};
   std::vector<std::size_t> first_of_sheet;
   std::size_t first = body.surface.vertices.size();
@@ -178,10 +260,14 @@ CrackedSolution CrackSystem::solve(const CrackedSurface& body, const Eigen::Matr
   const BoundaryElements elements = join_boundary_elements(parts);
   const Unknowns unknowns = make_unknowns(body, first_of_sheet);
 
-  Eigen::VectorXd loads =
-      -apply_adjoint_double_layer(parts[0], tractions, elements, material_, context);
-  loads.head(static_cast<Eigen::Index>(parts[0].unknowns())) +=
-      traction_moments(parts[0], tractions) / 2;
+  // The sheets' unknowns are minus the openings.
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(elements.unknowns()));
+  for (std::size_t s = 0; s < body.sheets.size(); ++s) {
+    const BoundaryElements& sheet = parts[s + 1];
+    loads.segment(static_cast<Eigen::Index>(3 * first_of_sheet[s]),
+                  static_cast<Eigen::Index>(sheet.unknowns())) =
+        -traction_moments(sheet, tractions(sheet));
+  }
   Eigen::VectorXd solution = unknowns.reduce(loads);
 
   Eigen::MatrixXd matrix = unknowns.reduce(operator_.update(elements, context));
@@ -192,9 +278,11 @@ CrackedSolution CrackSystem::solve(const CrackedSurface& body, const Eigen::Matr
   const double scale = matrix.trace() / static_cast<double>(matrix.rows());
   matrix.selfadjointView<Eigen::Lower>().rankUpdate(rigid, scale);
   solution -= rigid * (rigid.transpose() * solution);
-  solve_positive(matrix, solution, context.threads);
-
   CrackedSolution result;
+  result.held =
+      solve_holding(matrix, solution, static_cast<Eigen::Index>(3 * body.surface.vertices.size()),
+                    context.threads);
+
   for (std::size_t v = 0; v < body.surface.vertices.size(); ++v) {
     result.displacements.push_back(unknowns.value(solution, v));
   }

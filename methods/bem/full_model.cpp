@@ -34,31 +34,25 @@ ConformedCracks unconformed(const TriangleMesh& body, std::span<const CrackSheet
 
 }  // namespace
 
-FullModel::FullModel(TriangleMesh body, Eigen::Matrix3Xd tractions, const Material& material,
-                     Context& context)
+FullModel::FullModel(TriangleMesh body, StressField stress, std::vector<Mat3> on_surface,
+                     const Material& material, Context& context)
     : body_(std::move(body)),
-      tractions_(std::move(tractions)),
+      on_surface_(std::move(on_surface)),
       material_(material),
       context_(&context),
-      system_(material) {
-  if (tractions_.cols() != static_cast<Eigen::Index>(body_.faces.size())) {
-    throw InputError("tractions on " + std::to_string(tractions_.cols()) +
+      system_(material, std::move(stress)) {
+  if (on_surface_.size() != body_.faces.size()) {
+    throw InputError("stress on " + std::to_string(on_surface_.size()) +
                      " triangles for a body of " + std::to_string(body_.faces.size()) +
-                     ": give one for each");
+                     ": give it for each");
   }
 }
 
 FullModel::State FullModel::solve_conformed(std::span<const CrackSheet> cracks, bool conform) {
   State state{.cracks = {cracks.begin(), cracks.end()},
               .conformed = conform ? conform_cracks(body_, cracks) : unconformed(body_, cracks),
-              .tractions = {},
               .solution = {}};
-  state.tractions.resize(3, static_cast<Eigen::Index>(state.conformed.source_face.size()));
-  for (std::size_t f = 0; f < state.conformed.source_face.size(); ++f) {
-    state.tractions.col(static_cast<Eigen::Index>(f)) =
-        tractions_.col(state.conformed.source_face[f]);
-  }
-  state.solution = system_.solve(state.conformed.body, state.tractions, *context_);
+  state.solution = system_.solve(state.conformed.body, *context_);
   return state;
 }
 
@@ -86,6 +80,7 @@ const FullModel::State& FullModel::solve(std::span<const CrackSheet> cracks) {
     }
   }
   ++report_.solves;
+  report_.held += last_->solution.held;
   report_.overshooting += last_->conformed.body.overshooting;
   for (const CrackSheet& crack : cracks) {
     if (!mouth_runs(crack).empty()) ++report_.cracks_at_surface;
@@ -111,15 +106,21 @@ std::vector<std::vector<StressIntensity>> FullModel::stress_intensity(
 }
 
 SurfaceStress FullModel::surface_stress(std::span<const CrackSheet> cracks) {
+  // Without cracks there is nothing to solve.
+  if (cracks.empty()) return bem::surface_stress(body_, on_surface_);
   const State& state = solve(cracks);
   const TriangleMesh& surface = state.conformed.body.surface;
   Eigen::VectorXd displacements(3 * surface.vertices.size());
   for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
     displacements.segment<3>(static_cast<Eigen::Index>(3 * v)) = state.solution.displacements[v];
   }
-  return bem::surface_stress(
-      surface, bem::surface_stress(make_boundary_elements(surface), displacements, state.tractions,
-                                   material_));
+  const auto count = static_cast<Eigen::Index>(surface.faces.size());
+  std::vector<Mat3> stress = bem::surface_stress(make_boundary_elements(surface), displacements,
+                                                 Eigen::Matrix3Xd::Zero(3, count), material_);
+  for (std::size_t t = 0; t < stress.size(); ++t) {
+    stress[t] += on_surface_[state.conformed.source_face[t]];
+  }
+  return bem::surface_stress(surface, std::move(stress));
 }
 
 }  // namespace fracbench::bem

@@ -23,6 +23,8 @@ struct FullModelReport {
   std::int64_t overshooting = 0;
   /// Solves whose conforming system could not be factored: repeated with all sheets overshooting.
   int repeated = 0;
+  /// Components of openings, over all solves, held at 0 (see CrackedSolution::held).
+  std::size_t held = 0;
   std::string repeated_for = {};  ///< the reason of the last one
   std::size_t most_unknowns = 0;
 };
@@ -32,9 +34,10 @@ struct FullModelReport {
 /// operator between calls, so that only what changed is assembled. Keeps a reference to `context`.
 class FullModel {
  public:
-  /// `body` closed; `tractions` on its triangles, Pa, 3 x triangles.
-  FullModel(TriangleMesh body, Eigen::Matrix3Xd tractions, const Material& material,
-            Context& context);
+  /// `body` closed; `stress`: of the body without cracks under its load, and `on_surface` the same
+  /// on each of its triangles. Throws InputError where those are for another number of triangles.
+  FullModel(TriangleMesh body, StressField stress, std::vector<Mat3> on_surface,
+            const Material& material, Context& context);
 
   /// As StressIntensityModel: at every boundary vertex of every crack, 0 where it does not advance.
   /// Throws MethodFailure where the system cannot be factored.
@@ -45,19 +48,21 @@ class FullModel {
   SurfaceStress surface_stress(std::span<const CrackSheet> cracks);
 
   const FullModelReport& report() const { return report_; }
+  /// Of the last solve: unknowns, and vertices whose rows were assembled anew.
+  std::size_t last_unknowns() const { return system_.unknowns(); }
+  std::size_t last_assembled() const { return system_.assembled_vertices(); }
 
  private:
   struct State {
     std::vector<CrackSheet> cracks;  ///< as given
     ConformedCracks conformed;
-    Eigen::Matrix3Xd tractions;
     CrackedSolution solution;
   };
   const State& solve(std::span<const CrackSheet> cracks);
   State solve_conformed(std::span<const CrackSheet> cracks, bool conform);
 
   TriangleMesh body_;
-  Eigen::Matrix3Xd tractions_;
+  std::vector<Mat3> on_surface_;
   Material material_;
   Context* context_;
   CrackSystem system_;

@@ -133,21 +133,16 @@ std::vector<Accuracy> penny_in_shear(Context& context) {
            k[farthest(disc, Vec3::UnitY())].mode_3, 0.05, "Pa sqrt(m)"}};
 }
 
-/// Tractions of a body of uniform stress.
-Eigen::Matrix3Xd tractions_of(const TriangleMesh& surface, const Mat3& stress) {
-  Eigen::Matrix3Xd tractions(3, static_cast<Eigen::Index>(surface.faces.size()));
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    tractions.col(static_cast<Eigen::Index>(f)) = stress * area_vector2(surface, f).normalized();
-  }
-  return tractions;
+StressField uniform(const Mat3& stress) {
+  return
+      [stress](std::span<const Vec3> points) { return std::vector<Mat3>(points.size(), stress); };
 }
 
 std::vector<StressIntensity> solve_fitting(const CrackedBody& body, const Material& material,
                                            Context& context) {
   const CrackedSurface cracked = split_mouths(body.surface, {&body.crack, 1});
   const Mat3 stress = kStress * Vec3::UnitY() * Vec3::UnitY().transpose();
-  const auto solution =
-      CrackSystem(material).solve(cracked, tractions_of(cracked.surface, stress), context);
+  const auto solution = CrackSystem(material, uniform(stress)).solve(cracked, context);
   return stress_intensity_from_opening(cracked.sheets[0], solution.openings[0], material);
 }
 
@@ -224,7 +219,8 @@ std::vector<Accuracy> carved_half_penny(Context& context) {
   }
   const Vec3 normal = rotation * Vec3::UnitY();
   const Mat3 stress = kStress * normal * normal.transpose();
-  FullModel model(body.surface, tractions_of(body.surface, stress), glass(0.3), context);
+  FullModel model(body.surface, uniform(stress),
+                  std::vector<Mat3>(body.surface.faces.size(), stress), glass(0.3), context);
   const auto k = model.stress_intensity({&body.crack, 1});
   std::vector<Accuracy> rows =
       half_penny_rows("half-penny carved into a mesh that does not fit it", body.crack, turn, k[0]);
