@@ -88,9 +88,10 @@ void leave_notes(const Propagation& growth, const FragmentReport& fragments, std
 void leave_note(const FullModelReport& r, const Impact& impact, const Context& context) {
   note_once(context,
             fmt::format("bem, {}: {} solves with at most {} unknowns; {} of {} mouths at the "
-                        "surface without a conforming mesh, {} solves repeated",
+                        "surface without a conforming mesh, {} solves repeated, {} components of "
+                        "openings held",
                         name_in_notes(impact), r.solves, r.most_unknowns, r.overshooting,
-                        r.cracks_at_surface, r.repeated));
+                        r.cracks_at_surface, r.repeated, r.held));
 }
 
 /// For each label, the part of each crack's surface that runs inside it: the triangles that cut
@@ -228,7 +229,8 @@ std::vector<Piece> BemBody::fracture(const Impact& impact, Context& context) con
   FractureModel model;
   std::optional<FullModel> full;
   if (state_.settings.mode == Mode::full) {
-    full.emplace(*elements_, load.tractions, material, context);
+    full.emplace(*elements_, stress_field(stress, context.threads), stress->on_surface(), material,
+                 context);
     model.surface_stress = [&](std::span<const CrackSheet> cracks) {
       const auto stage = context.timer.stage("full solve");
       return full->surface_stress(cracks);
