@@ -19,6 +19,26 @@ TEST(Validate, AMethodWithoutCasesIsNotMeasured) {
   EXPECT_EQ(json.json(), nlohmann::json::array());
 }
 
+TEST(Validate, GivesTheTableOfTheCasesThatWereAskedFor) {
+  const TemporaryFolder folder;
+  const Answer answer = call("validate bem hertz --json --out table", folder.path());
+  ASSERT_EQ(answer.exit_code, 0) << answer.errors;
+  const auto rows = answer.json();
+  ASSERT_FALSE(rows.empty());
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["group"], "hertz");
+    EXPECT_EQ(row["pass"], true);
+    EXPECT_LE(row["error"], row["tolerance"]);
+    EXPECT_THAT(folder.read("table/accuracy.md"), HasSubstr(row["case"].get<std::string>()));
+  }
+  EXPECT_THAT(folder.read("table/accuracy.csv"), HasSubstr("case,reference,computed"));
+  EXPECT_EQ(call("validate bem hertz", folder.path()).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
+  const Answer wrong = call("validate bem hetrz", folder.path());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("did you mean 'hertz'"));
+}
+
 TEST(Validate, AnUnknownMethodIsBadInput) {
   const TemporaryFolder folder;
   const Answer answer = call("validate cdv", folder.path());
