@@ -11,11 +11,11 @@
 namespace fracbench::bem {
 namespace {
 
-FrontMotion motion_of(const StressIntensity& k, double last_turn,
+FrontMotion motion_of(const StressIntensity& k, double last_turn, double kink_share,
                       const PropagationOptions& options) {
   const double nu = options.material.poisson_ratio;
   FrontMotion motion;
-  motion.angle = options.kink_share * kink_angle(k, nu);
+  motion.angle = kink_share * kink_angle(k, nu);
   motion.speed = crack_speed(effective_stress_intensity(k, nu), options.material);
   // Where the faces are pressed together in every plane, kinks would only turn the front to and
   // fro: it goes straight on.
@@ -23,13 +23,23 @@ FrontMotion motion_of(const StressIntensity& k, double last_turn,
   return motion;
 }
 
+// A crack that has swept more sections of the body's box than this (its surface has about two
+// triangles for each square of the marker spacing) curls up without end.
+constexpr double kMostSections = 4;
+
 class Run {
  public:
   Run(CutLinks& links, const FractureModel& model, const PropagationOptions& options,
       Context& context)
       : space_(links), model_(model), options_(options), context_(context) {
     growth_.mesh_size = options.mesh_size;
+    kink_share_ = options.kink_share > 0 ? options.kink_share : model.stress_changes ? 1 : 0.5;
     growth_.spacing = std::min(links.spacing(), options.mesh_size / 5);
+    const auto& size = links.voxels().size;
+    const double section =
+        std::max({1.0 * size[0] * size[1], 1.0 * size[1] * size[2], 1.0 * size[2] * size[0]}) *
+        std::pow(links.spacing() / growth_.spacing, 2);
+    most_triangles_ = static_cast<std::size_t>(2 * kMostSections * section);
   }
 
   void take(std::vector<Crack> inherited) {
@@ -47,6 +57,13 @@ class Run {
   PropagationReport& report() { return result_.report; }
 
  private:
+  /// The crack stands still from here on.
+  void stop(std::size_t crack, std::string_view reason) {
+    if (stands_[crack]) return;
+    stands_[crack] = 1;
+    for (FrontMarker& m : result_.cracks[crack].front) m.speed = 0;
+    result_.report.failures.push_back(fmt::format("crack {}: {}", crack, reason));
+  }
   void add(Crack crack) {
     result_.cracks.push_back(std::move(crack));
     stands_.push_back(0);
@@ -63,6 +80,8 @@ class Run {
   const PropagationOptions& options_;
   Context& context_;
   GrowthOptions growth_;
+  double kink_share_ = 1;
+  std::size_t most_triangles_ = 0;  ///< of a crack's surface, before it counts as broken down
   Propagation result_;
   std::vector<std::uint8_t> stands_;  ///< cracks that broke down
 };
@@ -109,7 +128,13 @@ void Run::steer_all() {
     }
     for (const FrontMarker& marker : crack.front) {
       if (marker.coarse < 0) continue;
-      motions.push_back(motion_of(intensities[c][motions.size()], marker.turn, options_));
+      motions.push_back(
+          motion_of(intensities[c][motions.size()], marker.turn, kink_share_, options_));
+    }
+    for (const FrontMotion& motion : motions) {
+      if (!std::isfinite(motion.angle) || !std::isfinite(motion.speed)) {
+        stop(c, "its stress intensity is no number");
+      }
     }
     if (stands_[c]) motions.assign(motions.size(), FrontMotion{});
     steer(crack, motions, growth_);
@@ -140,8 +165,12 @@ void Run::step(double duration) {
     context_.stop_if_asked();
     for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
       if (stands_[c]) continue;
-      result_.report.area += advance(result_.cracks[c], static_cast<std::int32_t>(c),
-                                     duration / moves, space_, growth_);
+      Crack& crack = result_.cracks[c];
+      result_.report.area +=
+          advance(crack, static_cast<std::int32_t>(c), duration / moves, space_, growth_);
+      if (crack.surface.faces.size() > most_triangles_) {
+        stop(c, "it has swept several times the section of the body's box");
+      }
     }
   }
   for (std::size_t c = 0; c < result_.cracks.size(); ++c) {
@@ -152,8 +181,7 @@ void Run::step(double duration) {
       follow_front(crack, growth_);
     } catch (const MethodFailure& failure) {
       crack = std::move(before);
-      stands_[c] = 1;
-      result_.report.failures.push_back(fmt::format("crack {}: {}", c, failure.what()));
+      stop(c, failure.what());
     }
   }
   ++result_.report.steps;

@@ -29,12 +29,14 @@ struct PropagationOptions {
   double duration = 0;      ///< s: the shorter of the rigid-body step and the contact's
   double min_distance = 0;  ///< m: see InitiationOptions; 0: mesh_size
   bool parity = false;      ///< see InitiationOptions
-  /// Share of the kink angle by which a front turns in a step. The hoop stress criterion turns a
-  /// tip by -2 K_II / K_I (small angles), after which K_II vanishes, because the shear at a kinked
-  /// tip falls half as fast as that on a plane which turns in a given stress. With stress
-  /// intensities taken from such a plane (`fast`) a share of 1 turns the front too far, to and fro
-  /// from step to step without end; 1/2 is the share after which K_II vanishes.
-  double kink_share = 0.5;
+  /// Share of the kink angle by which a front turns in a step; 0: 1 where the model's stress
+  /// changes with the cracks, else 1/2. The hoop stress criterion turns a tip by -2 K_II / K_I
+  /// (small angles), after which K_II vanishes, because the shear at a kinked tip falls half as
+  /// fast as that on a plane which turns in a given stress. With stress intensities taken from such
+  /// a plane
+  /// (`fast`) a share of 1 turns the front too far, to and fro from step to step without end; 1/2
+  /// is the share after which K_II vanishes.
+  double kink_share = 0;
 };
 
 enum class PropagationEnd : std::uint8_t {
