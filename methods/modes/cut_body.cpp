@@ -200,6 +200,7 @@ void mark_pinches(CutBody& cut, const std::vector<std::uint8_t>& candidate) {
       for (std::size_t n = begin; n < end; ++n) {
         if (in_set(corners[n].cell) && !in_set(corners[n].other)) faces.push_back(corners[n].face);
       }
+      if (is_plain_fan(v, faces)) continue;
       const auto fans = fans_at(v, faces, cut.vertices);
       pinch = std::ranges::any_of(fans, [](std::int32_t fan) { return fan > 0; });
     }

@@ -1,6 +1,7 @@
 #include "methods/modes/fans.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -73,6 +74,34 @@ std::vector<std::int32_t> fans_at(std::int32_t center, std::span<const Face> fac
     fan[f] = first == static_cast<std::int32_t>(f) ? count++ : fan[first];
   }
   return fan;
+}
+
+bool is_plain_fan(std::int32_t center, std::span<const Face> faces) {
+  constexpr std::size_t most = 48;
+  const std::size_t count = faces.size();
+  if (count == 0 || count > most) return false;
+  std::array<std::int32_t, most> leaving, arriving;  // ends of the two edges of each face
+  for (std::size_t f = 0; f < count; ++f) {
+    const int k = faces[f][0] == center ? 0 : faces[f][1] == center ? 1 : 2;
+    leaving[f] = faces[f][(k + 1) % 3];
+    arriving[f] = faces[f][(k + 2) % 3];
+  }
+  std::array<std::size_t, most> next;
+  for (std::size_t f = 0; f < count; ++f) {
+    std::size_t found = 0;
+    for (std::size_t g = 0; g < count; ++g) {
+      if (leaving[g] != arriving[f]) continue;
+      next[f] = g;
+      ++found;
+    }
+    if (found != 1) return false;
+  }
+  std::size_t steps = 0, at = 0;
+  do {
+    at = next[at];
+    ++steps;
+  } while (at != 0 && steps <= count);
+  return steps == count;
 }
 
 }  // namespace fracbench::modes

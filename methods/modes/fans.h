@@ -18,4 +18,8 @@ namespace fracbench::modes {
 std::vector<std::int32_t> fans_at(std::int32_t center, std::span<const Face> faces,
                                   std::span<const Vec3> vertices);
 
+/// Whether the faces around `center` are one fan in which no edge has more than two faces: the
+/// common case, found quickly. False may also mean that there are too many faces to see quickly.
+bool is_plain_fan(std::int32_t center, std::span<const Face> faces);
+
 }  // namespace fracbench::modes

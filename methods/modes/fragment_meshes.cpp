@@ -8,13 +8,6 @@
 namespace fracbench::modes {
 namespace {
 
-/// A corner of a face at a vertex that may need several copies.
-struct Deferred {
-  std::int32_t vertex;
-  std::int32_t face;
-  std::int8_t corner;
-};
-
 Face corners_of(const CutBody& cut, FaceRef ref) {
   if (ref.is_surface()) return cut.surface[ref.part()].corners;
   Face corners = cut.interfaces[ref.part()].corners;
@@ -28,41 +21,39 @@ TriangleMesh MeshMaker::mesh_of(std::span<const Face> faces) {
   TriangleMesh mesh;
   mesh.faces.resize(faces.size());
   mesh.vertices.reserve(faces.size() / 2 + 2);
-  std::vector<std::int32_t> used;
-  used.reserve(faces.size() / 2 + 2);
-  std::vector<Deferred> deferred;
+  used_.clear();
+  deferred_.clear();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const std::int32_t v = faces[f][k];
       if (may_pinch_[v]) {
-        deferred.push_back({v, static_cast<std::int32_t>(f), static_cast<std::int8_t>(k)});
+        deferred_.push_back({v, static_cast<std::int32_t>(f), static_cast<std::int8_t>(k)});
         continue;
       }
       std::int32_t& number = number_[v];
       if (number < 0) {
         number = static_cast<std::int32_t>(mesh.vertices.size());
         mesh.vertices.push_back(vertices_[v]);
-        used.push_back(v);
+        used_.push_back(v);
       }
       mesh.faces[f][k] = number;
     }
   }
-  for (const std::int32_t v : used) number_[v] = -1;
-  std::ranges::stable_sort(deferred, {}, &Deferred::vertex);
-  std::vector<Face> around;
-  for (std::size_t begin = 0; begin < deferred.size();) {
+  for (const std::int32_t v : used_) number_[v] = -1;
+  std::ranges::stable_sort(deferred_, {}, &Deferred::vertex);
+  for (std::size_t begin = 0; begin < deferred_.size();) {
     std::size_t end = begin + 1;
-    while (end < deferred.size() && deferred[end].vertex == deferred[begin].vertex) ++end;
-    around.clear();
-    for (std::size_t n = begin; n < end; ++n) around.push_back(faces[deferred[n].face]);
-    const auto fan = fans_at(deferred[begin].vertex, around, vertices_);
+    while (end < deferred_.size() && deferred_[end].vertex == deferred_[begin].vertex) ++end;
+    around_.clear();
+    for (std::size_t n = begin; n < end; ++n) around_.push_back(faces[deferred_[n].face]);
+    const std::int32_t v = deferred_[begin].vertex;
+    const std::vector<std::int32_t> fan =
+        is_plain_fan(v, around_) ? std::vector<std::int32_t>() : fans_at(v, around_, vertices_);
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
     for (std::size_t n = begin; n < end; ++n) {
-      const std::int32_t number = first + fan[n - begin];
-      if (number == std::ssize(mesh.vertices)) {
-        mesh.vertices.push_back(vertices_[deferred[begin].vertex]);
-      }
-      mesh.faces[deferred[n].face][deferred[n].corner] = number;
+      const std::int32_t number = first + (fan.empty() ? 0 : fan[n - begin]);
+      if (number == std::ssize(mesh.vertices)) mesh.vertices.push_back(vertices_[v]);
+      mesh.faces[deferred_[n].face][deferred_[n].corner] = number;
     }
     begin = end;
   }
@@ -109,6 +100,12 @@ std::vector<Piece> make_pieces(const FragmentSource& source,
     std::vector<PieceFace> faces;
   };
   std::vector<Own> own(groups);
+  std::vector<std::size_t> sizes(groups, 0);
+  for (const std::int32_t cell : body_cells) sizes[group[cell]] += source.faces.of(cell).size();
+  for (std::int32_t g = 0; g < groups; ++g) {
+    own[g].refs.reserve(sizes[g]);
+    own[g].faces.reserve(sizes[g]);
+  }
   std::int32_t body_face = 0;
   for (const std::int32_t cell : body_cells) {
     Own& piece = own[group[cell]];

@@ -43,6 +43,16 @@ class MeshMaker {
   std::span<const Vec3> vertices_;
   std::span<const std::uint8_t> may_pinch_;
   std::vector<std::int32_t> number_;
+
+  // Kept between meshes for their memory only.
+  struct Deferred {  ///< a corner of a face at a vertex that may need several copies
+    std::int32_t vertex;
+    std::int32_t face;
+    std::int8_t corner;
+  };
+  std::vector<std::int32_t> used_;
+  std::vector<Deferred> deferred_;
+  std::vector<Face> around_;
 };
 
 /// The faces of each cell of a cut body.
