@@ -2,6 +2,9 @@
 
 #include <LinearMath/btConvexHullComputer.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace fracbench {
 
 namespace {
@@ -10,15 +13,13 @@ constexpr double kLargestInsetShare = 0.25;
 
 Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-}  // namespace
-
-ConvexHull convex_hull(std::span<const Vec3> points, double inset) {
+/// The hull of the points as it is.
+ConvexHull plain_hull(std::span<const Vec3> points) {
   ConvexHull hull;
   if (points.size() < 4) return hull;
   btConvexHullComputer computer;
-  hull.inset = computer.compute(points[0].data(), sizeof(Vec3), static_cast<int>(points.size()),
-                                inset, kLargestInsetShare);
-  if (hull.inset < 0 || computer.vertices.size() < 4) return ConvexHull{};
+  computer.compute(points[0].data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
+  if (computer.vertices.size() < 4) return ConvexHull{};
   for (int i = 0; i < computer.vertices.size(); ++i) {
     hull.vertices.push_back(from_bullet(computer.vertices[i]));
   }
@@ -43,6 +44,42 @@ ConvexHull convex_hull(std::span<const Vec3> points, double inset) {
   }
   if (!(hull.volume > 0)) return ConvexHull{};
   return hull;
+}
+
+/// A point inside: the mean of the vertices.
+Vec3 center_of(const ConvexHull& hull) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& vertex : hull.vertices) middle += vertex;
+  return middle / static_cast<double>(hull.vertices.size());
+}
+
+}  // namespace
+
+ConvexHull convex_hull(std::span<const Vec3> points, double inset) {
+  ConvexHull hull = plain_hull(points);
+  if (hull.vertices.empty() || !(inset > 0)) return hull;
+  // Bullet's own way of shrinking a hull may take all memory where faces are nearly parallel. Here
+  // by duality: the planes n . (x - c) <= d become the points n / d, the planes of whose hull are
+  // the vertices of the shrunk one.
+  const Vec3 center = center_of(hull);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& plane : hull.planes) {
+    nearest = std::min(nearest, plane.offset - plane.normal.dot(center));
+  }
+  if (!(nearest > 0)) return hull;
+  inset = std::min(inset, kLargestInsetShare * nearest);
+  std::vector<Vec3> dual;
+  for (const auto& plane : hull.planes) {
+    dual.push_back(plane.normal / (plane.offset - plane.normal.dot(center) - inset));
+  }
+  std::vector<Vec3> corners;
+  for (const auto& plane : plain_hull(dual).planes) {
+    if (plane.offset > 0) corners.emplace_back(center + plane.normal / plane.offset);
+  }
+  ConvexHull shrunk = plain_hull(corners);
+  if (shrunk.vertices.empty()) return hull;
+  shrunk.inset = inset;
+  return shrunk;
 }
 
 }  // namespace fracbench
