@@ -144,7 +144,7 @@ namespace {
 /// A vertex of surface or sheet as a combination of the unknowns' vertices.
 struct Combination {
   int count = 0;
-  std::array<std::pair<std::int32_t, double>, 4> terms;
+  std::array<std::pair<std::int32_t, double>, 2> terms;
 
   void add(std::int32_t unknown, double factor) {
     for (int k = 0; k < count; ++k) {
@@ -213,8 +213,8 @@ Unknowns make_unknowns(const CrackedSurface& body, const std::vector<std::size_t
   }
   for (const MouthVertex& mouth : body.mouths) {
     Combination& vertex = unknowns.vertices[first_of_sheet[mouth.sheet] + mouth.vertex];
-    for (const std::int32_t v : mouth.lower) vertex.add(v, 0.5);
-    for (const std::int32_t v : mouth.upper) vertex.add(v, -0.5);
+    vertex.add(mouth.lower, 1);
+    vertex.add(mouth.upper, -1);
   }
   return unknowns;
 }

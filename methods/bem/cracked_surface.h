@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,13 +10,12 @@
 namespace fracbench::bem {
 
 /// A vertex of the sheet on the mouth. Its opening is no unknown of its own but the difference of
-/// the surface's displacements on the two sides: mean over `upper` minus mean over `lower` (the two
-/// entries of each are the same but where another crack's mouth ends at this vertex).
+/// the surface's displacements on the two sides, `upper` minus `lower`.
 struct MouthVertex {
   std::int32_t sheet = 0;   ///< index of the crack
   std::int32_t vertex = 0;  ///< of the crack's mesh
-  std::array<std::int32_t, 2> upper{};
-  std::array<std::int32_t, 2> lower{};
+  std::int32_t upper = 0;   ///< of the surface
+  std::int32_t lower = 0;   ///< of the surface; the same as `upper` where the mouth is closed
 };
 
 /// A body's surface, open along the mouths of its cracks, with the sheets that end there. The
@@ -35,7 +33,9 @@ struct CrackedSurface {
 /// Doubles the vertices of `surface` along the mouths: the boundary edges of a sheet whose two ends
 /// are also (bit for bit) the ends of an edge of the surface. The sheets must lie inside the closed
 /// surface. A mouth vertex whose surface triangles still hang together (the tip of a mouth) is not
-/// doubled: the opening is 0 there.
+/// doubled: the opening is 0 there. Neither is one where mouths meet: a sheet has one opening at a
+/// vertex, which cannot follow three or more separate parts of the surface, and displacements that
+/// do not conform would make the system indefinite.
 CrackedSurface split_mouths(const TriangleMesh& surface, std::span<const CrackSheet> sheets);
 
 }  // namespace fracbench::bem

@@ -47,13 +47,12 @@ Eigen::MatrixXd rigid_motions(const CrackedSurface& body) {
   for (const MouthVertex& mouth : body.mouths) {
     if (mouth.upper == mouth.lower) continue;
     ++tied[mouth.sheet];
-    sides[mouth.sheet] = {mouth.upper[0], mouth.lower[0]};
+    sides[mouth.sheet] = {mouth.upper, mouth.lower};
   }
   // A sheet whose opening is 0 somewhere holds its two sides together.
   for (const MouthVertex& mouth : body.mouths) {
     if (tied[mouth.sheet] == body.sheets[mouth.sheet].boundary.size()) continue;
-    groups.join(mouth.upper[0], mouth.lower[0]);
-    groups.join(mouth.upper[1], mouth.lower[1]);
+    groups.join(mouth.upper, mouth.lower);
   }
 
   std::size_t rows = points.size();

@@ -21,14 +21,17 @@ Place place(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 class Sectors {
  public:
   Sectors(const TriangleMesh& surface, const std::map<Edge, std::int32_t>& face_of,
-          const std::map<Edge, bool>& cut)
+          const std::map<Edge, bool>& cut, const std::vector<char>& closed)
       : surface_(surface), parent_(3 * surface.faces.size()) {
     for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = static_cast<std::int32_t>(i);
     for (const auto& [edge, face] : face_of) {
       const auto [a, b] = edge;
       const auto other = face_of.find({b, a});
-      if (a > b || other == face_of.end() || cut.contains(std::minmax(a, b))) continue;
-      for (const std::int32_t v : {a, b}) join(corner(face, v), corner(other->second, v));
+      if (a > b || other == face_of.end()) continue;
+      const bool open = cut.contains(std::minmax(a, b));
+      for (const std::int32_t v : {a, b}) {
+        if (!open || closed[v] != 0) join(corner(face, v), corner(other->second, v));
+      }
     }
   }
 
@@ -99,7 +102,16 @@ CrackedSurface split_mouths(const TriangleMesh& surface, std::span<const CrackSh
   for (const MouthEdge& edge : edges) {
     cut[std::minmax(edge.surface_ends[0], edge.surface_ends[1])] = true;
   }
-  Sectors sectors(surface, face_of, cut);
+  std::vector<char> meeting(surface.vertices.size(), 0);  // more than one mouth, or one with itself
+  std::vector<int> edges_at(surface.vertices.size(), 0);
+  std::vector<std::int32_t> sheet_at(surface.vertices.size(), -1);
+  for (const MouthEdge& edge : edges) {
+    for (const std::int32_t v : edge.surface_ends) {
+      if (++edges_at[v] > 2 || (sheet_at[v] >= 0 && sheet_at[v] != edge.sheet)) meeting[v] = 1;
+      sheet_at[v] = edge.sheet;
+    }
+  }
+  Sectors sectors(surface, face_of, cut, meeting);
 
   CrackedSurface result;
   result.surface = surface;
@@ -133,13 +145,9 @@ CrackedSurface split_mouths(const TriangleMesh& surface, std::span<const CrackSh
       const std::int32_t v = edge.surface_ends[end];
       const std::int32_t upper = vertex_of_sector.at(sectors.sector(upper_face, v));
       const std::int32_t lower = vertex_of_sector.at(sectors.sector(lower_face, v));
-      const auto [at, fresh] = mouths.try_emplace(
-          {edge.sheet, edge.ends[end]},
-          MouthVertex{edge.sheet, edge.ends[end], {upper, upper}, {lower, lower}});
-      if (!fresh) {
-        at->second.upper[1] = upper;
-        at->second.lower[1] = lower;
-      }
+      // The edge before and the one after give the same.
+      mouths.try_emplace({edge.sheet, edge.ends[end]},
+                         MouthVertex{edge.sheet, edge.ends[end], upper, lower});
     }
   }
   std::vector<bool> has_mouth(sheets.size(), false);

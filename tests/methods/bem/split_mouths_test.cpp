@@ -34,11 +34,9 @@ TEST(SplitMouths, DoublesTheMouthAndLeavesItsTips) {
   int tips = 0;
   for (const MouthVertex& mouth : cracked.mouths) {
     const Vec3& at = cracked.sheets[0].mesh.vertices[mouth.vertex];
-    EXPECT_EQ(cracked.surface.vertices[mouth.upper[0]], at);
-    EXPECT_EQ(cracked.surface.vertices[mouth.lower[0]], at);
-    EXPECT_EQ(mouth.upper[0], mouth.upper[1]);
-    EXPECT_EQ(mouth.lower[0], mouth.lower[1]);
-    if (mouth.upper[0] == mouth.lower[0]) {
+    EXPECT_EQ(cracked.surface.vertices[mouth.upper], at);
+    EXPECT_EQ(cracked.surface.vertices[mouth.lower], at);
+    if (mouth.upper == mouth.lower) {
       ++tips;
       EXPECT_EQ(std::abs(at.x()), 1);
     }
@@ -51,16 +49,47 @@ TEST(SplitMouths, PutsTheUpperSideWhereTheNormalPoints) {
     const CrackedBody body = strip ? edge_cracked_strip({}) : half_penny_block(4, 5);
     const CrackedSurface cracked = split_mouths(body.surface, {&body.crack, 1});
     for (const MouthVertex& mouth : cracked.mouths) {
-      if (mouth.upper[0] == mouth.lower[0]) continue;
+      if (mouth.upper == mouth.lower) continue;
       for (const Face& face : cracked.surface.faces) {
         Vec3 center = Vec3::Zero();
         for (const std::int32_t v : face) center += cracked.surface.vertices[v] / 3;
         const auto has = [&](std::int32_t v) { return std::ranges::find(face, v) != face.end(); };
-        EXPECT_FALSE(has(mouth.upper[0]) && center.y() < 0);
-        EXPECT_FALSE(has(mouth.lower[0]) && center.y() > 0);
+        EXPECT_FALSE(has(mouth.upper) && center.y() < 0);
+        EXPECT_FALSE(has(mouth.lower) && center.y() > 0);
       }
     }
   }
+}
+
+TEST(SplitMouths, StaysClosedWhereTwoMouthsMeet) {
+  // A second crack in the plane x = 0, whose mouth crosses the first one's in the origin.
+  const CrackedBody block = half_penny_block(4, 5);
+  CrackSheet other = block.crack;
+  other.mesh = {};
+  std::vector<Vec3> line;
+  for (const Vec3& v : block.surface.vertices) {
+    if (v.z() == 0 && v.x() == 0 && std::abs(v.y()) < 1) line.push_back(v);
+  }
+  std::ranges::sort(line, {}, [](const Vec3& v) { return v.y(); });
+  ASSERT_GE(line.size(), 3u);
+  other.mesh.vertices = line;
+  other.mesh.vertices.emplace_back(0, 0, -0.5);
+  const auto apex = static_cast<std::int32_t>(line.size());
+  for (std::int32_t i = 0; i < apex; ++i) {
+    if (i + 1 < apex) other.mesh.faces.push_back({i, apex, i + 1});
+  }
+  other.boundary = boundary_loop(other.mesh);
+  other.states.assign(other.boundary.size(), FrontState::at_surface);
+  const std::vector<CrackSheet> cracks{block.crack, other};
+  const CrackedSurface cracked = split_mouths(block.surface, cracks);
+  int closed = 0;
+  for (const MouthVertex& mouth : cracked.mouths) {
+    const Vec3& at = cracked.sheets[mouth.sheet].mesh.vertices[mouth.vertex];
+    EXPECT_TRUE(at.norm() > 0 || mouth.upper == mouth.lower);
+    closed += at.norm() == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(closed, 2);
+  EXPECT_EQ(cracked.surface.vertices.size(), block.surface.vertices.size() + 8 + line.size() - 3);
 }
 
 TEST(SplitMouths, CountsCracksThatEndAtTheSurfaceWithoutAMouth) {
