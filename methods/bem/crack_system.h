@@ -40,9 +40,10 @@ struct CrackedSolution {
 /// Solves cracked bodies that differ a little from call to call (cracks grow, mouths are carved):
 /// one symmetric system for the displacements of the surface and the openings of all cracks,
 /// Cholesky factored anew, its operator assembled where the geometry changed only. At the front the
-/// opening is 0, at a mouth it is the difference of the two sides of the surface. The load is the
-/// stress of the body without cracks, whose tractions on the cracks' planes are taken away: what
-/// loads the surface, and body forces, are in it.
+/// opening is 0, at a mouth it is the difference of the two sides of the surface. It is also 0
+/// where a sheet ran into another crack or overshoots the surface: the sheets are not cut to fit
+/// there. The load is the stress of the body without cracks, whose tractions on the cracks' planes
+/// are taken away: what loads the surface, and body forces, are in it.
 class CrackSystem {
  public:
   /// `stress`: of the body without cracks. It must not change from call to call.
