@@ -11,8 +11,12 @@
 namespace fracbench::bem {
 namespace {
 
+// rad in a step, where the stress does not answer to the crack: through stress that turns faster
+// than a front can, it would else curl up into crumbs.
+constexpr double kMostTurn = 0.25;
+
 FrontMotion motion_of(const StressIntensity& k, double last_turn, double kink_share,
-                      const PropagationOptions& options) {
+                      bool stress_changes, const PropagationOptions& options) {
   const double nu = options.material.poisson_ratio;
   FrontMotion motion;
   motion.angle = kink_share * kink_angle(k, nu);
@@ -20,12 +24,13 @@ FrontMotion motion_of(const StressIntensity& k, double last_turn, double kink_sh
   // Where the faces are pressed together in every plane, kinks would only turn the front to and
   // fro: it goes straight on.
   if (motion.angle * last_turn < 0) motion.angle *= k.mode_1 > 0 ? 0.5 : 0;
+  if (!stress_changes) motion.angle = std::clamp(motion.angle, -kMostTurn, kMostTurn);
   return motion;
 }
 
 // A crack that has swept more sections of the body's box than this (its surface has about two
 // triangles for each square of the marker spacing) curls up without end.
-constexpr double kMostSections = 4;
+constexpr double kMostSections = 1.5;
 
 class Run {
  public:
@@ -128,8 +133,8 @@ void Run::steer_all() {
     }
     for (const FrontMarker& marker : crack.front) {
       if (marker.coarse < 0) continue;
-      motions.push_back(
-          motion_of(intensities[c][motions.size()], marker.turn, kink_share_, options_));
+      motions.push_back(motion_of(intensities[c][motions.size()], marker.turn, kink_share_,
+                                  model_.stress_changes, options_));
     }
     for (const FrontMotion& motion : motions) {
       if (!std::isfinite(motion.angle) || !std::isfinite(motion.speed)) {

@@ -35,7 +35,8 @@ struct PropagationOptions {
   /// fast as that on a plane which turns in a given stress. With stress intensities taken from such
   /// a plane
   /// (`fast`) a share of 1 turns the front too far, to and fro from step to step without end; 1/2
-  /// is the share after which K_II vanishes.
+  /// is the share after which K_II vanishes. Where the stress does not change, a step turns a front
+  /// by at most 0.25 rad: sharper kinks take several steps.
   double kink_share = 0;
 };
 
