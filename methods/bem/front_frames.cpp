@@ -1,6 +1,7 @@
 #include "methods/bem/front_frames.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "core/error.h"
@@ -39,6 +40,17 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
+/// The vertex of a closed boundary that is the fewest steps from `from` among those marked.
+std::size_t nearest_along(const std::vector<std::uint8_t>& marked, std::size_t from) {
+  const std::size_t count = marked.size();
+  for (std::size_t steps = 1; steps <= count / 2; ++steps) {
+    for (const std::size_t other : {(from + count - steps) % count, (from + steps) % count}) {
+      if (marked[other]) return other;
+    }
+  }
+  throw MethodFailure("a crack has no plane anywhere on its boundary");
+}
+
 }  // namespace
 
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet) {
@@ -46,6 +58,7 @@ std::vector<FrontFrame> front_frames(const CrackSheet& sheet) {
   const std::vector<Vec3> normals = vertex_normals(sheet.mesh);
   const std::size_t count = sheet.boundary.size();
   std::vector<FrontFrame> frames(count);
+  std::vector<std::uint8_t> has_plane(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count;
     const std::size_t after = (i + 1) % count;
@@ -59,13 +72,14 @@ std::vector<FrontFrame> front_frames(const CrackSheet& sheet) {
     const Vec3 tangent = -along.normalized();
     const Vec3 mean = normals[sheet.boundary[i]];
     const Vec3 normal = mean - mean.dot(tangent) * tangent;
-    if (!(along.norm() > 0) || !(normal.norm() > 1e-9 * mean.norm())) {
-      throw MethodFailure("a crack has no plane at vertex " + std::to_string(sheet.boundary[i]) +
-                          " of its boundary");
-    }
+    if (!(along.norm() > 0) || !(normal.norm() > 1e-9 * mean.norm())) continue;
+    has_plane[i] = 1;
     frames[i].tangent = tangent;
     frames[i].normal = normal.normalized();
     frames[i].forward = frames[i].normal.cross(tangent);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!has_plane[i]) frames[i] = frames[nearest_along(has_plane, i)];
   }
   return frames;
 }

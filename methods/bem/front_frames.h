@@ -14,8 +14,9 @@ namespace fracbench::bem {
 /// corner between front and mouth does not turn it.
 ///
 /// Throws InputError where the boundary has less than three vertices, names a vertex that is not
-/// there or has another length than `states`; MethodFailure where a vertex has no plane (all its
-/// triangles, or its segments, without extent).
+/// there or has another length than `states`. A vertex without a plane (its triangles have no
+/// extent, fold back on each other or stand across the front) takes the frame of the nearest one
+/// along the boundary that has one; MethodFailure where none has.
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet);
 
 /// Area of the sheet, m^2, one side.

@@ -51,6 +51,18 @@ TEST(FrontFrames, AtACornerBetweenFrontAndMouthFollowTheFront) {
   EXPECT_LT((frames[2].forward - Vec3(1, 1, 0).normalized()).norm(), 1e-12);
 }
 
+TEST(FrontFrames, TakeThoseOfANeighbourWhereAVertexHasNoPlane) {
+  CrackSheet disc = disc_crack(1, 2);
+  const std::vector<FrontFrame> whole = front_frames(disc);
+  // The boundary turns back on itself at vertex 3: its tangent has no direction.
+  disc.mesh.vertices[disc.boundary[4]] = disc.mesh.vertices[disc.boundary[2]];
+  const std::vector<FrontFrame> frames = front_frames(disc);
+  EXPECT_LT((frames[3].normal - whole[3].normal).norm(), 1e-12);
+  for (const FrontFrame& frame : frames) {
+    EXPECT_NEAR(frame.forward.cross(frame.normal).dot(frame.tangent), 1, 1e-12);
+  }
+}
+
 TEST(FrontFrames, SayWhereASheetIsNoSheet) {
   CrackSheet disc = disc_crack(1, 2);
   disc.states.pop_back();
