@@ -275,6 +275,7 @@ std::vector<Piece> BemBody::fracture(const Impact& impact, Context& context) con
     const double share = volume(state_.body.mesh) / state_.target_volume;
     fragments = crack_fragments(state_.body.mesh, links,
                                 {.smallest = state_.settings.smallest_fragment,
+                                 .smallest_voxels = state_.settings.smallest_voxels,
                                  .parity = state_.settings.parity,
                                  .hull_share = state_.settings.hull_volume / share},
                                 context);

@@ -118,6 +118,12 @@ OptionsSchema options_schema() {
        .summary = "smaller parts join the neighbour with the largest shared crack",
        .minimum = 0,
        .maximum = 0.5},
+      {.name = "smallest_voxels",
+       .fallback = 30.0,
+       .unit = "voxels",
+       .summary = "smaller parts join likewise: the grid does not resolve them",
+       .minimum = 0,
+       .maximum = 1e6},
       {.name = "refracture_volume",
        .fallback = 0.02,
        .unit = "of the target's volume",
@@ -161,6 +167,7 @@ Settings settings_from(const Options& options) {
   s.strength.ratio = options.number("weak_ratio");
   s.parity = options.flag("parity");
   s.smallest_fragment = options.number("smallest_fragment");
+  s.smallest_voxels = options.number("smallest_voxels");
   s.hull_volume = options.number("hull_volume");
   s.refracture_volume = options.number("refracture_volume");
   if (s.crack_mesh < s.voxel) {

@@ -24,6 +24,7 @@ struct Settings {
   StrengthOptions strength;  ///< mean and seed are filled in at the break
   bool parity = false;
   double smallest_fragment = 1e-6;  ///< of the body's volume
+  double smallest_voxels = 30;
   double hull_volume = 0.005;       ///< of the target's volume; under parity only
   double refracture_volume = 0.02;  ///< of the target's volume
 };

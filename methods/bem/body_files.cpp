@@ -41,6 +41,7 @@ std::string digest_of(const Target& body, const Settings& s) {
                              s.strength.boundary_width,
                              s.strength.ratio,
                              s.smallest_fragment,
+                             s.smallest_voxels,
                              s.hull_volume,
                              s.refracture_volume}) {
     digest.add(value);

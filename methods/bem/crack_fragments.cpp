@@ -103,7 +103,8 @@ CrackFragments crack_fragments(const TriangleMesh& body, const CutLinks& links,
   CrackFragments result;
   result.labels = links.components();
   const double voxels = volume(body) / std::pow(links.spacing(), 3);
-  merge_small(links, options.smallest * voxels, result.labels, result.report);
+  merge_small(links, std::max(options.smallest * voxels, options.smallest_voxels), result.labels,
+              result.report);
   count_cracks(links, result.labels, result.report);
   context.stop_if_asked();
   const auto& values = result.labels.values;

@@ -16,6 +16,9 @@ struct FragmentOptions {
   /// Parts of less than this share of the body's volume go to the neighbour with which they share
   /// the most cut links.
   double smallest = 1e-6;
+  /// So do parts of less than this many voxels. Where cracks meet at an acute angle they leave
+  /// chips that the grid does not resolve.
+  double smallest_voxels = 0;
   /// As the authors' program: every fragment is an isosurface of its voxels, so that the original
   /// surface is re-meshed, and fragments of at most `hull_share` of the volume are convex hulls.
   bool parity = false;

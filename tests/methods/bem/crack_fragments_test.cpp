@@ -125,6 +125,9 @@ TEST(CrackFragments, BelowTheSmallestSizeGoToANeighbour) {
   EXPECT_EQ(merged.report.merged_parts, 1u);
   EXPECT_NEAR(merged.report.merged_volume, std::pow(2 * r, 3), 0.5 * std::pow(2 * r, 3));
   expect_partition(body, merged.pieces);
+  const double corner = std::pow(2 * r / links.spacing(), 3);
+  EXPECT_EQ(fragments_of(body, links, 1, {.smallest_voxels = corner / 2}).pieces.size(), 3u);
+  EXPECT_EQ(fragments_of(body, links, 1, {.smallest_voxels = corner * 2}).pieces.size(), 2u);
 }
 
 TEST(CrackFragments, HaveSmoothFractureSurfaces) {
