@@ -11,6 +11,7 @@
 #include "methods/bem/bem_body.h"
 #include "methods/bem/bem_options.h"
 #include "methods/bem/body_files.h"
+#include "methods/bem/validation/behaviour_cases.h"
 #include "methods/bem/validation/crack_cases.h"
 #include "methods/bem/validation/elastic_cases.h"
 
@@ -58,6 +59,7 @@ std::unique_ptr<Breakable> BemMethod::load(const std::filesystem::path& folder,
 std::vector<ValidationCase> BemMethod::validation() const {
   std::vector<ValidationCase> cases = bem::elastic_validation_cases();
   for (ValidationCase& one : bem::crack_validation_cases()) cases.push_back(std::move(one));
+  for (ValidationCase& one : bem::behaviour_cases()) cases.push_back(std::move(one));
   std::ranges::stable_sort(cases, {}, &ValidationCase::seconds);
   return cases;
 }
