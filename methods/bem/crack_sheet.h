@@ -13,7 +13,7 @@ namespace fracbench::bem {
 enum class FrontState : std::uint8_t {
   advancing,   ///< part of the front: the opening is zero there
   at_surface,  ///< reached the body's surface, the crack's mouth: the opening is free there
-  at_crack     ///< ran into another crack: the opening is free there as well
+  at_crack     ///< ran into another crack: the opening is 0 there
 };
 
 /// A crack as the boundary elements see it: one sheet of coarse triangles, both faces of the crack

@@ -18,7 +18,8 @@ namespace fracbench::bem {
 struct FullModelReport {
   int solves = 0;
   /// Over all solves: cracks at the surface, and those of them without a conforming mouth (their
-  /// sheets overshoot the surface; the stress intensity is some 10 to 15 % low there).
+  /// sheets overshoot the surface: a half-penny then has 8 % too much stress intensity at its
+  /// deepest point and half of it beside the surface).
   std::int64_t cracks_at_surface = 0;
   std::int64_t overshooting = 0;
   /// Solves whose conforming system could not be factored: repeated with all sheets overshooting.
