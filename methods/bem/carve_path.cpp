@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.h"
 #include "geometry/measures.h"
 #include "geometry/triangle_tree.h"
 
@@ -42,6 +43,14 @@ void CarvedSurface::set_face(std::int32_t face, const Face& corners) {
   }
 }
 
+std::int32_t CarvedSurface::face_left_of(std::int32_t from, std::int32_t to) const {
+  const auto found = face_of_.find({from, to});
+  if (found == face_of_.end()) {
+    throw MethodFailure("the surface is no longer closed where a crack's mouth was carved into it");
+  }
+  return found->second;
+}
+
 std::vector<std::int32_t> CarvedSurface::faces_around(std::int32_t vertex) const {
   std::vector<std::int32_t> faces;
   std::int32_t face = some_face_[vertex];
@@ -49,7 +58,7 @@ std::vector<std::int32_t> CarvedSurface::faces_around(std::int32_t vertex) const
     faces.push_back(face);
     const Face& f = mesh_.faces[face];
     const int k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
-    face = face_of_.at({vertex, f[(k + 2) % 3]});  // across the edge that ends at the vertex
+    face = face_left_of(vertex, f[(k + 2) % 3]);  // across the edge that ends at the vertex
   } while (face != faces.front() && faces.size() <= mesh_.faces.size());
   return faces;
 }
@@ -128,7 +137,7 @@ std::optional<std::vector<CarvedSurface::Stop>> CarvedSurface::follow(
       if (way < progress - along.squaredNorm()) return {};  // running away
       progress = std::max(progress, way);
       entry = {stop->a, stop->b};
-      face = face_of_.at({stop->b, stop->a});
+      face = face_left_of(stop->b, stop->a);
       // Out through an edge and back through it: the curve only touches the triangle beyond.
       if (!stops.empty() && stops.back().a == stop->b && stops.back().b == stop->a) {
         stops.pop_back();
@@ -154,7 +163,7 @@ std::int32_t CarvedSurface::split_edge(std::int32_t a, std::int32_t b, const Vec
   mesh_.vertices.push_back(position);
   some_face_.push_back(-1);
   on_path_.push_back(false);
-  const std::array<std::int32_t, 2> sides{face_of_.at({a, b}), face_of_.at({b, a})};
+  const std::array<std::int32_t, 2> sides{face_left_of(a, b), face_left_of(b, a)};
   for (const std::int32_t side : sides) {
     const Face old = mesh_.faces[side];
     const int k = old[0] != a && old[0] != b ? 0 : old[1] != a && old[1] != b ? 1 : 2;
@@ -199,7 +208,7 @@ std::int32_t CarvedSurface::split_face(std::int32_t face, const Vec3& position) 
 std::vector<std::int32_t> CarvedSurface::faces_at(const Stop& stop) const {
   if (stop.a < 0) return {stop.face};
   if (stop.a == stop.b) return faces_around(stop.a);
-  return {face_of_.at({stop.a, stop.b}), face_of_.at({stop.b, stop.a})};
+  return {face_left_of(stop.a, stop.b), face_left_of(stop.b, stop.a)};
 }
 
 bool CarvedSurface::share_face(const Stop& one, const Stop& other) const {

@@ -62,6 +62,8 @@ class CarvedSurface {
   std::int32_t split_edge(std::int32_t a, std::int32_t b, const Vec3& position);
   std::int32_t split_face(std::int32_t face, const Vec3& position);
   bool may_move(std::int32_t vertex, const Vec3& to) const;
+  /// Throws MethodFailure where there is none: the surface came apart.
+  std::int32_t face_left_of(std::int32_t from, std::int32_t to) const;
   std::vector<std::int32_t> faces_around(std::int32_t vertex) const;
   std::vector<std::int32_t> faces_at(const Stop& stop) const;
   bool share_face(const Stop& one, const Stop& other) const;

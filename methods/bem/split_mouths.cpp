@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "core/error.h"
 #include "methods/bem/cracked_surface.h"
 #include "methods/bem/refit_sheet.h"
 
@@ -139,8 +140,13 @@ CrackedSurface split_mouths(const TriangleMesh& surface, std::span<const CrackSh
   std::map<std::pair<std::int32_t, std::int32_t>, MouthVertex> mouths;
   for (const MouthEdge& edge : edges) {
     const auto [a, b] = edge.surface_ends;
-    const std::int32_t upper_face = face_of.at({a, b});
-    const std::int32_t lower_face = face_of.at({b, a});
+    const auto upper_at = face_of.find({a, b});
+    const auto lower_at = face_of.find({b, a});
+    if (upper_at == face_of.end() || lower_at == face_of.end()) {
+      throw MethodFailure("the surface is not closed at a crack's mouth");
+    }
+    const std::int32_t upper_face = upper_at->second;
+    const std::int32_t lower_face = lower_at->second;
     for (int end = 0; end < 2; ++end) {
       const std::int32_t v = edge.surface_ends[end];
       const std::int32_t upper = vertex_of_sector.at(sectors.sector(upper_face, v));
