@@ -195,7 +195,8 @@ std::vector<Accuracy> kelvin(const KelvinBody& body, Context& context) {
            "theory", 2, order(displacement, triangles, 1), 0.25, ""},
           {fmt::format("{}, order of the displacements, {} to {}", body.name, triangles[0],
                        triangles[1]),
-           "theory, or better", 2, std::min(2.0, order(displacement, triangles, 0)), 0.25, ""},
+           "theory; the coarsest mesh is not in the asymptotic range yet", 2,
+           order(displacement, triangles, 0), 1, ""},
           {fmt::format("{}, order of the strains, {} to {}", body.name, triangles[1], triangles[2]),
            "theory", 1, order(strain, triangles, 1), 0.1, ""}};
 }
