@@ -12,6 +12,7 @@
 #include "methods/bem/fast_model.h"
 #include "methods/bem/growth_law.h"
 #include "methods/bem/propagate.h"
+#include "source_folder.h"
 
 namespace fracbench::bem {
 namespace {

@@ -8,6 +8,7 @@
 #include "geometry/measures.h"
 #include "geometry/read_mesh.h"
 #include "methods/registry.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

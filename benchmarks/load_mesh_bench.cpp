@@ -13,6 +13,7 @@
 #include "geometry/check_mesh.h"
 #include "geometry/read_mesh.h"
 #include "geometry/write_mesh.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

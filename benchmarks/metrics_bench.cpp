@@ -14,6 +14,7 @@
 #include "scenarios/given_impact.h"
 #include "scenarios/replacement.h"
 #include "scenarios/shapes.h"
+#include "source_folder.h"
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "methods/modes/cage.h"
 #include "methods/modes/fracture_modes.h"
 #include "methods/modes/validation/shapes.h"
+#include "source_folder.h"
 
 namespace fracbench::modes {
 namespace {

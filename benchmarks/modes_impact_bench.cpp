@@ -13,6 +13,7 @@
 #include "geometry/measures.h"
 #include "geometry/read_mesh.h"
 #include "methods/modes/model.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

@@ -9,6 +9,7 @@
 #include "scenarios/first_impact.h"
 #include "scenarios/scene.h"
 #include "scenarios/shapes.h"
+#include "source_folder.h"
 
 // Scenes of the family `single` on Squirrel where the development meshes are there, else on the
 // generated mug: up to the first impact (no method), and whole ones with 30 pieces.

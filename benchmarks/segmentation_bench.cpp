@@ -21,6 +21,7 @@
 #include "geometry/read_mesh.h"
 #include "geometry/signed_distance_grid.h"
 #include "geometry/surface_distance.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

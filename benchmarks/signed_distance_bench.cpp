@@ -14,6 +14,7 @@
 #include "geometry/signed_distance_grid.h"
 #include "geometry/surface_distance.h"
 #include "scenarios/shapes/generated_shapes.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

@@ -13,8 +13,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     COMMENT "Looking at the revision")
   add_dependencies(fracbench_harness fracbench_build_info)
   target_include_directories(fracbench_harness PRIVATE ${folder})
-  target_compile_definitions(fracbench_harness PRIVATE
-    FRACBENCH_SUITE_FOLDER="${PROJECT_SOURCE_DIR}/scenarios/suites")
+  fracbench_path_for(harness/suite_files.cpp FRACBENCH_SUITE_FOLDER ${PROJECT_SOURCE_DIR}/scenarios/suites)
   return()
 endif()
 

@@ -17,6 +17,21 @@ function(fracbench_program name)
   target_link_libraries(${name} PRIVATE ${ARG_USES} fracbench_settings)
 endfunction()
 
+# Lets the target include "source_folder.h", which defines FRACBENCH_SOURCE_DIR. A header and not a
+# definition for the whole target, so that the compiler cache serves every clone: only the few files
+# that name a folder of this machine differ between two of them.
+function(fracbench_source_folder_header target)
+  set(folder ${PROJECT_BINARY_DIR}/source_folder)
+  file(CONFIGURE OUTPUT ${folder}/source_folder.h
+    CONTENT "#pragma once\n#define FRACBENCH_SOURCE_DIR \"@PROJECT_SOURCE_DIR@\"\n" @ONLY)
+  target_include_directories(${target} PRIVATE ${folder})
+endfunction()
+
+# Defines a path of this machine for one source file of a room, for the same reason.
+function(fracbench_path_for source definition path)
+  set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS ${definition}="${path}")
+endfunction()
+
 # All files tests/<room>/**/*_test.cpp make one test program, test_<room>; helpers that several of
 # its files share stand beside them as ordinary sources.
 function(fracbench_tests room)
@@ -24,7 +39,7 @@ function(fracbench_tests room)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*.cpp)
   add_executable(test_${room} ${sources})
   target_link_libraries(test_${room} PRIVATE ${ARG_USES} third_party::gtest fracbench_settings)
-  target_compile_definitions(test_${room} PRIVATE FRACBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  fracbench_source_folder_header(test_${room})
   gtest_discover_tests(test_${room} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 600 LABELS ${room})
 endfunction()
@@ -37,6 +52,6 @@ function(fracbench_benchmarks)
     get_filename_component(name ${source} NAME_WE)
     add_executable(${name} ${source})
     target_link_libraries(${name} PRIVATE ${ARG_USES} third_party::benchmark fracbench_settings)
-    target_compile_definitions(${name} PRIVATE FRACBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    fracbench_source_folder_header(${name})
   endforeach()
 endfunction()

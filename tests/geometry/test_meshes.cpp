@@ -1,3 +1,4 @@
+#include "source_folder.h"
 #include "tests/geometry/test_meshes.h"
 
 #include <array>

@@ -11,6 +11,7 @@
 #include "harness/suite_overrides.h"
 #include "harness/suite_reader.h"
 #include "harness/summaries.h"
+#include "source_folder.h"
 #include "temporary_folder.h"
 
 namespace fracbench {

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "source_folder.h"
 #include "synthetic.h"
 
 namespace fracbench {

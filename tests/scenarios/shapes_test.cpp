@@ -15,6 +15,7 @@
 #include "geometry/write_mesh.h"
 #include "scenarios/shapes/generated_shapes.h"
 #include "scenarios/shapes/paper_shapes.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

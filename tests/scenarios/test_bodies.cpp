@@ -1,3 +1,4 @@
+#include "source_folder.h"
 #include "tests/scenarios/test_bodies.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/segmentation/watershed.h"
+#include "source_folder.h"
 
 namespace fracbench {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "geometry/measures.h"
 #include "geometry/read_mesh.h"
+#include "source_folder.h"
 
 namespace fracbench::test {
 

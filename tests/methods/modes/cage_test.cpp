@@ -9,6 +9,7 @@
 #include "geometry/measures.h"
 #include "geometry/read_mesh.h"
 #include "methods/modes/validation/shapes.h"
+#include "source_folder.h"
 
 namespace fracbench::modes {
 namespace {

@@ -11,6 +11,7 @@
 #include "methods/modes/fracture_modes.h"
 #include "methods/modes/modes_problem.h"
 #include "methods/modes/validation/shapes.h"
+#include "source_folder.h"
 #include "tests/methods/modes/test_meshes.h"
 
 namespace fracbench::modes {
