@@ -27,6 +27,10 @@ struct Context {
   /// A folder for pictures of the break, in files whose names start with the method's; empty: none.
   /// What is broken does not depend on it.
   std::filesystem::path pictures = {};
+  /// A folder for the checkpoints of long work on one body: what was written there is there again
+  /// when the same work is begun anew after an interruption. Empty: none. The result does not depend
+  /// on it.
+  std::filesystem::path checkpoints = {};
 
   void note(std::string line) const {
     if (notes) notes->push_back(std::move(line));
