@@ -132,6 +132,7 @@ bool has_learning_data(const Plan& plan, const std::filesystem::path& folder) {
     return false;
   }
   return std::ranges::all_of(plan.shapes, [&](const PlannedShape& shape) {
+    if (shape.learning_digest.empty()) return true;
     const auto found = std::ranges::find(index.shapes, shape.label, &LearningShape::label);
     return found != index.shapes.end() && found->digest == shape.learning_digest &&
            shortage(*found, index.split).empty();

@@ -167,6 +167,7 @@ std::vector<Cell> make_cells(const Plan& plan, const Shard& shard) {
         if (k >= shape.scenarios.size() || !in_shard(group++, shard)) continue;
         for (std::size_t m = 0; m < plan.methods.size(); ++m) {
           const PlannedMethod& method = plan.methods[m];
+          if (!method.breaks(shape.label)) continue;
           Cell cell{.shape = s, .scenario = k, .method = m, .repeat = repeat, .key = {}};
           cell.seed = derive_seed(plan.suite.seed, {"cell", shape.label, shape.scenarios[k].name,
                                                     method.label, std::to_string(repeat)});
@@ -183,32 +184,42 @@ std::vector<Cell> make_cells(const Plan& plan, const Shard& shard) {
 
 /// Says of each shape which learning data its methods get, where one of them learns.
 void add_learning_digests(Plan& plan, const Catalog& catalog) {
-  const auto learner = std::ranges::find_if(
-      plan.methods, [](const PlannedMethod& method) { return method.info.learns; });
-  if (learner == plan.methods.end()) return;
-  if (!plan.suite.learning) {
-    throw InputError(
-        fmt::format("{}: method '{}' learns, and the suite has no table [learning], which says "
-                    "from whose fractures; see docs/learning-data.md",
-                    plan.suite.name, learner->label));
-  }
-  const std::vector<std::string>& covered = plan.suite.learning->shapes;
   std::vector<std::string> labels;
-  for (const PlannedShape& shape : plan.shapes) {
-    labels.push_back(shape.label);
-    if (covered.empty() || std::ranges::find(covered, shape.label) != covered.end()) continue;
-    throw InputError(
-        fmt::format("{}: method '{}' learns, and there is no learning data for shape '{}'; add it "
-                    "to the shapes of [learning]",
-                    plan.suite.name, learner->label, shape.label));
+  for (const PlannedMethod& method : plan.methods) {
+    if (!method.info.learns) continue;
+    if (!plan.suite.learning) {
+      throw InputError(
+          fmt::format("{}: method '{}' learns, and the suite has no table [learning], which says "
+                      "from whose fractures; see docs/learning-data.md",
+                      plan.suite.name, method.label));
+    }
+    const std::vector<std::string>& covered = plan.suite.learning->shapes;
+    for (const PlannedShape& shape : plan.shapes) {
+      const std::string& label = shape.label;
+      if (!method.breaks(label) || std::ranges::find(labels, label) != labels.end()) continue;
+      if (!covered.empty() && std::ranges::find(covered, label) == covered.end()) {
+        throw InputError(fmt::format(
+            "{}: method '{}' learns, and there is no learning data for shape '{}'; add it to the "
+            "shapes of [learning], or give the method the key shapes, with those that it breaks",
+            plan.suite.name, method.label, label));
+      }
+      labels.push_back(label);
+    }
   }
+  if (labels.empty()) return;
   const Plan learning = make_learning_plan(plan.suite, catalog, labels);
-  for (std::size_t s = 0; s < plan.shapes.size(); ++s) {
-    plan.shapes[s].learning_digest = learning_digest(learning, s, plan.suite.learning->split);
+  for (std::size_t i = 0; i < learning.shapes.size(); ++i) {
+    const auto planned =
+        std::ranges::find(plan.shapes, learning.shapes[i].label, &PlannedShape::label);
+    planned->learning_digest = learning_digest(learning, i, plan.suite.learning->split);
   }
 }
 
 }  // namespace
+
+bool PlannedMethod::breaks(std::string_view shape) const {
+  return shapes.empty() || std::ranges::find(shapes, shape) != shapes.end();
+}
 
 Shard parse_shard(std::string_view text) {
   Shard shard;
@@ -230,22 +241,29 @@ Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& op
   for (const SuiteMethod& entry :
        kept(suite.methods, options.methods, "--methods", [](const auto& m) { return m.name; })) {
     const Method& method = catalog.method(entry.name, suite.name);
-    plan.methods.push_back({entry.label, &method, method.info(), entry.options, entry.limits});
+    plan.methods.push_back({.label = entry.label,
+                            .method = &method,
+                            .info = method.info(),
+                            .options = entry.options,
+                            .limits = entry.limits,
+                            .shapes = entry.shapes});
   }
   const std::vector<SuiteShape> shapes =
       kept(suite.shapes, options.shapes, "--shapes", [](const auto& s) { return s.request.name; });
   plan.shapes = load_shapes(suite, shapes, catalog);
 
-  std::size_t scenes = 0;
+  std::size_t cells = 0;
   std::size_t next = 0;
   for (const SuiteShape& shape : suite.shapes) {
     std::vector<PlannedScenario> scenarios = make_scenarios(suite, shape, catalog);
-    scenes += scenarios.size();
+    const auto methods = std::ranges::count_if(
+        suite.methods, [&](const SuiteMethod& method) { return method.breaks(shape.label); });
+    cells += scenarios.size() * static_cast<std::size_t>(methods);
     if (next < plan.shapes.size() && plan.shapes[next].label == shape.label) {
       plan.shapes[next++].scenarios = std::move(scenarios);
     }
   }
-  plan.suite_cells = scenes * suite.methods.size() * static_cast<std::size_t>(suite.repeats);
+  plan.suite_cells = cells * static_cast<std::size_t>(suite.repeats);
   add_learning_digests(plan, catalog);
   plan.cells = make_cells(plan, options.shard);
   return plan;

@@ -38,7 +38,7 @@ struct PlannedShape {
   Shape shape;
   std::string digest;  ///< of the mesh, SHA-256
   std::vector<PlannedScenario> scenarios;
-  std::string learning_digest = {};  ///< of its learning data; empty where no method learns
+  std::string learning_digest = {};  ///< of its learning data; empty where nothing learns from it
 };
 
 struct PlannedMethod {
@@ -47,6 +47,9 @@ struct PlannedMethod {
   MethodInfo info;
   Options options;
   CellLimits limits = {};
+  std::vector<std::string> shapes = {};  ///< labels of those that it breaks; empty: all
+
+  bool breaks(std::string_view shape) const;
 };
 
 /// One thing to measure: a shape broken once by a method in a scene.

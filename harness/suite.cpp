@@ -47,16 +47,21 @@ nlohmann::ordered_json learning_json(const SuiteLearning& learning) {
           {"test", learning.split.test},        {"least", learning.split.needed()}};
 }
 
-void check_learning(const Suite& suite, std::string_view where) {
-  const SuiteLearning& learning = *suite.learning;
+void check_shapes(const Suite& suite, const std::vector<std::string>& labels,
+                  std::string_view where) {
   std::vector<std::string> known;
   for (const SuiteShape& shape : suite.shapes) known.push_back(shape.label);
-  for (const std::string& label : learning.shapes) {
+  for (const std::string& label : labels) {
     if (std::ranges::find(known, label) == known.end()) {
-      throw InputError(fmt::format("{}: learning: the suite has no shape '{}'{}", where, label,
+      throw InputError(fmt::format("{}: the suite has no shape '{}'{}", where, label,
                                    did_you_mean(label, known)));
     }
   }
+}
+
+void check_learning(const Suite& suite, std::string_view where) {
+  const SuiteLearning& learning = *suite.learning;
+  check_shapes(suite, learning.shapes, fmt::format("{}: learning", where));
   if (learning.split.needed() > learning.split.wanted()) {
     throw InputError(
         fmt::format("{}: learning: least is {}, more than the {} of train and test together", where,
@@ -65,6 +70,10 @@ void check_learning(const Suite& suite, std::string_view where) {
 }
 
 }  // namespace
+
+bool SuiteMethod::breaks(std::string_view shape) const {
+  return shapes.empty() || std::ranges::find(shapes, shape) != shapes.end();
+}
 
 nlohmann::ordered_json to_json(const Suite& suite) {
   using Json = nlohmann::ordered_json;
@@ -85,7 +94,9 @@ nlohmann::ordered_json to_json(const Suite& suite) {
   }
   Json& methods = json["methods"] = Json::object();
   for (const SuiteMethod& method : suite.methods) {
-    methods[method.label] = {{"name", method.name}, {"options", method.options.to_json()}};
+    Json& entry =
+        methods[method.label] = {{"name", method.name}, {"options", method.options.to_json()}};
+    if (!method.shapes.empty()) entry["shapes"] = method.shapes;
   }
   if (suite.learning) json["learning"] = learning_json(*suite.learning);
   return json;
@@ -236,6 +247,9 @@ void check_labels(const Suite& suite, std::string_view where) {
   if (suite.learning && suite.scenarios.empty() && suite.methods.empty()) return;
   check_entries(suite.scenarios, "scenario", where);
   check_entries(suite.methods, "method", where);
+  for (const SuiteMethod& method : suite.methods) {
+    check_shapes(suite, method.shapes, fmt::format("{}: method '{}'", where, method.label));
+  }
 }
 
 }  // namespace fracbench

@@ -36,7 +36,10 @@ struct SuiteMethod {
   std::string label;  ///< unique in the suite
   std::string name;   ///< in the registry
   Options options;
-  CellLimits limits = {};  ///< no part of the suite's identity: see docs/records.md
+  CellLimits limits = {};                ///< no part of the suite's identity: see docs/records.md
+  std::vector<std::string> shapes = {};  ///< labels of those that it breaks; empty: all
+
+  bool breaks(std::string_view shape) const;
 };
 
 /// How the collisions that broke are divided, for each shape.
@@ -61,7 +64,8 @@ struct SuiteLearning {
   LearningSplit split;
 };
 
-/// What is to be measured: every shape in every scenario with every method, each `repeats` times.
+/// What is to be measured: every shape in every scenario with every method (but for methods that
+/// name their shapes), each `repeats` times.
 /// Complete and checked: every option has its value.
 struct Suite {
   std::string name;
@@ -103,8 +107,8 @@ CellLimits with_limits(CellLimits limits, const OptionMap& given, std::string_vi
 
 /// Throws InputError for a suite without shapes, scenarios or methods (one that makes learning data
 /// may have neither scenarios nor methods), for labels that are used twice or hold anything but
-/// letters, digits and ". _ + -", for a name that is a path, and for learning data of shapes that
-/// the suite does not have.
+/// letters, digits and ". _ + -", for a name that is a path, and for methods and learning data of
+/// shapes that the suite does not have.
 void check_labels(const Suite& suite, std::string_view where);
 
 }  // namespace fracbench

@@ -171,22 +171,6 @@ std::vector<SuiteScenario> read_scenarios(const Entry& top, const Catalog& catal
   return scenarios;
 }
 
-std::vector<SuiteMethod> read_methods(const Entry& top, const Catalog& catalog) {
-  std::vector<SuiteMethod> methods;
-  const CellLimits limits = with_limits({}, read_limits(top), top.where());
-  for (Entry& entry : read_entries(top, "method")) {
-    const std::string name = require_text(entry, "name", "cvd");
-    const Method& known = catalog.method(name, entry.where(*entry.table.get("name")));
-    entry.what = fmt::format("method '{}'", name);
-    methods.push_back(
-        {.label = read_text(entry, "label").value_or(name),
-         .name = name,
-         .options = read_options(entry, known.options(), and_limits({"name", "label"})),
-         .limits = with_limits(limits, read_limits(entry), entry.where())});
-  }
-  return methods;
-}
-
 std::vector<std::string> read_names(const Entry& entry, std::string_view key) {
   std::vector<std::string> names;
   const toml::node* node = entry.table.get(key);
@@ -201,6 +185,23 @@ std::vector<std::string> read_names(const Entry& entry, std::string_view key) {
     throw InputError(fmt::format("{}: '{}' must be a list of names", entry.where(*node), key));
   }
   return names;
+}
+
+std::vector<SuiteMethod> read_methods(const Entry& top, const Catalog& catalog) {
+  std::vector<SuiteMethod> methods;
+  const CellLimits limits = with_limits({}, read_limits(top), top.where());
+  for (Entry& entry : read_entries(top, "method")) {
+    const std::string name = require_text(entry, "name", "cvd");
+    const Method& known = catalog.method(name, entry.where(*entry.table.get("name")));
+    entry.what = fmt::format("method '{}'", name);
+    methods.push_back(
+        {.label = read_text(entry, "label").value_or(name),
+         .name = name,
+         .options = read_options(entry, known.options(), and_limits({"name", "label", "shapes"})),
+         .limits = with_limits(limits, read_limits(entry), entry.where()),
+         .shapes = read_names(entry, "shapes")});
+  }
+  return methods;
 }
 
 /// The options in the table `key` of another table, which may be missing.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,10 +33,13 @@ ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
     text += fmt::format("learning data: {}\n", cost.describe());
   }
   if (!plan.methods.empty()) {
-    const std::size_t bodies = plan.shapes.size() * plan.methods.size();
+    std::size_t bodies = 0;
+    for (const PlannedMethod& method : plan.methods) {
+      bodies += static_cast<std::size_t>(std::ranges::count_if(
+          plan.shapes, [&](const PlannedShape& shape) { return method.breaks(shape.label); }));
+    }
     json["bodies"] = bodies;
-    text += fmt::format("methods to prepare: {} for {} shapes\n", plan.methods.size(),
-                        plan.shapes.size());
+    text += fmt::format("bodies to prepare: {}\n", bodies);
   }
   if (a.as_json) {
     print_json(json);

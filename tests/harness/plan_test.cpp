@@ -131,6 +131,18 @@ TEST_F(PlanTest, FiltersKeepPartOfTheCellsAndTheirKeys) {
   EXPECT_THROW(make_plan(suite, catalog, {.methods = {"cvd"}}), InputError);
 }
 
+TEST_F(PlanTest, AMethodMayBreakSomeOfTheShapesOnly) {
+  const auto all = keys(make_plan(suite, catalog));
+  suite.methods[1].shapes = {"slab"};
+  const Plan part = make_plan(suite, catalog);
+  EXPECT_EQ(part.cells.size(), all.size() * 3 / 4);
+  EXPECT_EQ(part.suite_cells, part.cells.size());
+  EXPECT_EQ(shared(keys(part), all), part.cells.size());
+  for (const Cell& cell : part.cells) {
+    EXPECT_TRUE(cell.method == 0 || part.shapes[cell.shape].label == "slab");
+  }
+}
+
 TEST_F(PlanTest, ShardsDivideTheCellsAndKeepMethodsTogether) {
   const Suite big = with_override(suite, "scenario.shove.count=30", catalog);
   const Plan whole = make_plan(big, catalog);

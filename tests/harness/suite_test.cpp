@@ -97,6 +97,20 @@ TEST_F(SuiteTest, RefusesLabelsThatAreUsedTwiceOrWouldNotFitAFileName) {
   EXPECT_THAT(message("halves-wide", "halves/wide"), HasSubstr("may hold only"));
 }
 
+TEST_F(SuiteTest, AMethodMayNameTheShapesThatItBreaks) {
+  std::string text = toy_suite_text();
+  text.insert(text.find("label = \"halves-wide\""), "shapes = [\"slab\"]\n");
+  const Suite suite = parse_suite(text, "toy.toml", catalog);
+  EXPECT_TRUE(suite.methods[1].breaks("slab"));
+  EXPECT_FALSE(suite.methods[1].breaks("box"));
+  EXPECT_TRUE(suite.methods[0].breaks("box"));
+  EXPECT_NE(to_json(suite), to_json(toy_suite(catalog)));
+  EXPECT_THAT(message("label = \"halves-wide\"", "label = \"halves-wide\"\nshapes = [\"slub\"]"),
+              AllOf(HasSubstr("halves-wide"), HasSubstr("did you mean 'slab'?")));
+  EXPECT_THAT(message("label = \"halves-wide\"", "label = \"halves-wide\"\nshapes = \"slab\""),
+              HasSubstr("list of names"));
+}
+
 TEST_F(SuiteTest, FindsFilesBesideItself) {
   const TemporaryFolder temporary;
   const std::filesystem::path& folder = temporary.path();
