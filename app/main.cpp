@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/interrupt.h"
+#include "core/interrupt.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "harness/build_info.h"

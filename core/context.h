@@ -28,8 +28,8 @@ struct Context {
   /// What is broken does not depend on it.
   std::filesystem::path pictures = {};
   /// A folder for the checkpoints of long work on one body: what was written there is there again
-  /// when the same work is begun anew after an interruption. Empty: none. The result does not depend
-  /// on it.
+  /// when the same work is begun anew after an interruption. Empty: none. The result does not
+  /// depend on it.
   std::filesystem::path checkpoints = {};
 
   void note(std::string line) const {

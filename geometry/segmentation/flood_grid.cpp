@@ -22,7 +22,7 @@ bool relief_of_row(const float* field, int count, float cage, bool inside_only, 
     const float g = field[i] + cage;
     const float value = 255.0f - (std::abs(g) + 1.0f) / 2.0f * 255.0f;
     bad |= !(std::abs(field[i]) < infinite);
-    relief[i] = inside_only & (g < 0) ? infinite : value;
+    relief[i] = (inside_only && g < 0) ? infinite : value;
   }
   return bad == 0;
 }

@@ -48,7 +48,7 @@ class Model {
   CellFaces faces_;
 };
 
-/// Writes `model.fracbench` below a folder (see array_file.h; the names are those of the members).
+/// Writes `model.fracbench` below a folder (see core/array_file.h; the names are those of the members).
 /// Throws InputError.
 void save_model(const std::filesystem::path& folder, const Model& model);
 

@@ -3,15 +3,24 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/array_file.h"
 #include "core/digest.h"
 #include "core/error.h"
-#include "methods/modes/array_file.h"
 #include "methods/modes/model.h"
 
 namespace fracbench::modes {
 namespace {
 
 constexpr const char* kFileName = "model.fracbench";
+constexpr ArrayFileKind kModelKind{.format = "fracbench modes", .version = 1};
+
+ArrayFile read_model_file(const std::filesystem::path& file) {
+  try {
+    return read_array_file(file, kModelKind);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("modes: {}; prepare the model again", error.what()));
+  }
+}
 
 std::string digest_of(const TriangleMesh& mesh) {
   Digest digest;
@@ -187,12 +196,12 @@ void save_model(const std::filesystem::path& folder, const Model& model) {
   file.reals["typical_jump"] = {data.typical_jump};
   file.reals["mode_energies"] = data.mode_energies;
   file.integers["mode_pieces"] = data.mode_pieces;
-  write_array_file(folder / kFileName, file);
+  write_array_file(folder / kFileName, file, kModelKind);
 }
 
 ModelData load_model(const std::filesystem::path& folder, const Target& target,
                      const std::string& settings) {
-  const ArrayFile file = read_array_file(folder / kFileName);
+  const ArrayFile file = read_model_file(folder / kFileName);
   const Reader read(file);
   if (read.text("body") != digest_of(target.mesh)) {
     throw InputError(

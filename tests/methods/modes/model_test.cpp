@@ -10,8 +10,8 @@
 #include <numeric>
 #include <set>
 
+#include "core/array_file.h"
 #include "core/error.h"
-#include "methods/modes/array_file.h"
 #include "scenarios/break_test.h"
 #include "scenarios/given_impact.h"
 #include "tests/methods/cvd/bodies.h"
@@ -242,17 +242,18 @@ TEST_F(ModelFile, ThatIsDamagedCutShortOrMissingIsRefused) {
 }
 
 // The check sum fits, but the numbers do not.
+constexpr ArrayFileKind kKind{.format = "fracbench modes", .version = 1};
 TEST_F(ModelFile, WithIndicesOutOfRangeIsRefused) {
   body()->save(folder);
-  const ArrayFile good = read_array_file(folder / "model.fracbench");
+  const ArrayFile good = read_array_file(folder / "model.fracbench", kKind);
   for (const auto& [name, values] : good.integers) {
     ArrayFile bad = good;
     bad.integers[name].back() = 1 << 30;
-    write_array_file(folder / "model.fracbench", bad);
+    write_array_file(folder / "model.fracbench", bad, kKind);
     if (name == "cut/region" || name == "mode_pieces") continue;  // any number will do
     EXPECT_NE(load_error().find(name), std::string::npos) << name;
     bad.integers.erase(name);
-    write_array_file(folder / "model.fracbench", bad);
+    write_array_file(folder / "model.fracbench", bad, kKind);
     EXPECT_NE(load_error().find(name), std::string::npos) << name;
   }
 }

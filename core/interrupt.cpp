@@ -1,15 +1,16 @@
-#include "app/interrupt.h"
+#include "core/interrupt.h"
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
-#include "harness/exit_code.h"
-
 namespace fracbench {
 
 namespace {
+
+// The exit code of work that was stopped, in all our programs.
+constexpr int kNotEverythingDone = 4;
 
 /// Wakes the listener when the program ends by itself.
 constexpr int kWakeUp = SIGUSR2;
@@ -40,7 +41,7 @@ Interrupt::Interrupt() {
     std::fputs("\nfracbench: stopping; once more to stop at once\n", stderr);
     signal = sigtimedwait(&waited, nullptr, &kPatience);
     if (signal == kWakeUp) return;
-    std::_Exit(signal > 0 ? 128 + signal : static_cast<int>(ExitCode::not_measured));
+    std::_Exit(signal > 0 ? 128 + signal : kNotEverythingDone);
   });
 }
 

@@ -1,0 +1,155 @@
+#include "neural/voxel_decoder.h"
+
+#include <cblas.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace fracbench::neural {
+
+namespace {
+
+constexpr std::size_t kGroups = 8;
+
+void leaky_relu(std::span<float> values, float slope) {
+  for (float& v : values) v = v > 0 ? v : slope * v;
+}
+
+/// Mean and one over the deviation of all values.
+std::pair<float, float> statistics_of(std::span<const float> values, double epsilon) {
+  const double count = static_cast<double>(values.size());
+  // Row by row in single precision, which the compiler makes vectors of, rows in double.
+  constexpr std::size_t kRow = 256;
+  const auto sum_of = [&](auto term) {
+    double sum = 0;
+    for (std::size_t k = 0; k < values.size(); k += kRow) {
+      float parts[8] = {};
+      const std::size_t end = std::min(k + kRow, values.size());
+      std::size_t at = k;
+      for (; at + 8 <= end; at += 8) {
+        for (std::size_t p = 0; p < 8; ++p) parts[p] += term(values[at + p]);
+      }
+      for (; at < end; ++at) parts[0] += term(values[at]);
+      for (const float part : parts) sum += part;
+    }
+    return sum;
+  };
+  const auto mean = static_cast<float>(sum_of([](float v) { return v; }) / count);
+  const double variance = sum_of([mean](float v) { return (v - mean) * (v - mean); }) / count;
+  return {mean, static_cast<float>(1 / std::sqrt(variance + epsilon))};
+}
+
+}  // namespace
+
+VoxelDecoder::VoxelDecoder(const Model& model) : network_(model.network) {
+  linear_weight_ = model.weights.at("linear.weight");
+  linear_bias_ = model.weights.at("linear.bias");
+  const bool stored =
+      network_.normalisation == Normalisation::batch && network_.statistics != Statistics::sample;
+  for (const DecoderLayer& layer : decoder_blocks(network_)) {
+    std::vector<float> weight = model.weights.at(layer.name + ".weight");
+    std::vector<float> bias = model.weights.at(layer.name + ".bias");
+    std::vector<float> scale = model.weights.at(layer.name + ".scale");
+    std::vector<float> shift = model.weights.at(layer.name + ".shift");
+    if (stored) {
+      const auto mean = model.statistics.find(layer.name + ".mean");
+      const auto variance = model.statistics.find(layer.name + ".variance");
+      if (mean == model.statistics.end() || variance == model.statistics.end()) {
+        throw InputError("the model has no statistics of its batch normalisation");
+      }
+      const std::size_t out = scale.size();
+      for (std::size_t c = 0; c < out; ++c) {
+        const float factor =
+            scale[c] / static_cast<float>(std::sqrt(variance->second[c] + network_.epsilon));
+        bias[c] = (bias[c] - mean->second[c]) * factor + shift[c];
+        for (std::size_t ci = 0; ci < static_cast<std::size_t>(layer.in); ++ci) {
+          for (std::size_t k = 0; k < 64; ++k) weight[(ci * out + c) * 64 + k] *= factor;
+        }
+      }
+      scale.clear();
+      shift.clear();
+    }
+    blocks_.push_back(
+        {TransposedConvolution(layer, weight, bias), std::move(scale), std::move(shift)});
+  }
+  for (const DecoderLayer& layer : decoder_heads(network_)) {
+    heads_.emplace_back(layer, model.weights.at(layer.name + ".weight"), std::span<const float>());
+  }
+}
+
+void VoxelDecoder::normalise(std::vector<float>& volume, const Block& block, int threads) const {
+  const auto slope = static_cast<float>(network_.slope);
+  if (block.scale.empty()) {
+    leaky_relu(volume, slope);
+    return;
+  }
+  const std::size_t channels = block.scale.size();
+  const std::size_t voxels = volume.size() / channels;
+  const std::size_t groups = network_.normalisation == Normalisation::group ? kGroups : channels;
+  const std::size_t each = channels / groups;
+  parallel_for(groups, threads, [&](std::size_t g) {
+    const std::span values = std::span(volume).subspan(g * each * voxels, each * voxels);
+    const auto [mean, inverse] = statistics_of(values, network_.epsilon);
+    for (std::size_t c = 0; c < each; ++c) {
+      const float scale = block.scale[g * each + c] * inverse;
+      const float shift = block.shift[g * each + c] - mean * scale;
+      for (float& v : values.subspan(c * voxels, voxels)) {
+        const float w = v * scale + shift;
+        v = w > 0 ? w : slope * w;
+      }
+    }
+  });
+}
+
+VoxelGrid<float> VoxelDecoder::decode(std::span<const float> code, int resolution,
+                                      int threads) const {
+  const auto found = std::ranges::find(network_.resolutions, resolution);
+  if (found == network_.resolutions.end()) {
+    throw InputError(fmt::format("the model has no output of resolution {}, only of {}", resolution,
+                                 fmt::join(network_.resolutions, ", ")));
+  }
+  if (code.size() != static_cast<std::size_t>(network_.code_size())) {
+    throw InputError(
+        fmt::format("a code has {} values, must have {}", code.size(), network_.code_size()));
+  }
+  openblas_set_num_threads(threads);
+  std::vector<float> volume = linear_bias_;
+  cblas_sgemv(CblasRowMajor, CblasNoTrans, static_cast<int>(volume.size()),
+              static_cast<int>(code.size()), 1.0f, linear_weight_.data(),
+              static_cast<int>(code.size()), code.data(), 1, 1.0f, volume.data(), 1);
+  leaky_relu(volume, static_cast<float>(network_.slope));
+  const auto layers = decoder_blocks(network_);
+  for (std::size_t k = 0; k < layers.size() && 4 * layers[k].side <= resolution; ++k) {
+    volume = blocks_[k].convolution(volume, threads);
+    normalise(volume, blocks_[k], threads);
+  }
+  VoxelGrid<float> field = unit_grid<float>(resolution);
+  field.values =
+      heads_[static_cast<std::size_t>(found - network_.resolutions.begin())](volume, threads);
+  parallel_for(static_cast<std::size_t>(resolution), threads, [&](std::size_t plane) {
+    const std::size_t size = field.values.size() / static_cast<std::size_t>(resolution);
+    for (float& v : std::span(field.values).subspan(plane * size, size)) v = std::tanh(v);
+  });
+  return field;
+}
+
+double VoxelDecoder::operations(int resolution) const {
+  double sum = 2.0 * static_cast<double>(linear_weight_.size());
+  const auto add = [&](const DecoderLayer& layer) {
+    sum += 2.0 * layer.in * layer.out * 64 * std::pow(layer.side, 3);
+  };
+  for (const DecoderLayer& layer : decoder_blocks(network_)) {
+    if (4 * layer.side <= resolution) add(layer);
+  }
+  for (const DecoderLayer& layer : decoder_heads(network_)) {
+    if (2 * layer.side == resolution) add(layer);
+  }
+  return sum;
+}
+
+}  // namespace fracbench::neural

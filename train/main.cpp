@@ -1,0 +1,253 @@
+// fracbench-train: trains the network of the method deepfracture from a data set file alone, on any
+// machine with libtorch. fracbench itself calls it, too.
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "neural/data_set.h"
+#include "neural/model.h"
+#include "training/training.h"
+
+namespace {
+
+using namespace fracbench;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+enum Exit { kGood = 0, kInternal = 1, kBadInput = 2, kNotDone = 4 };
+
+constexpr const char* kAbout =
+    "Trains the network of fracbench's method deepfracture from a data set file.\n"
+    "An interrupted training goes on where it was when the same command is given again.\n";
+
+struct Arguments {
+  std::string data, out, checkpoints, options_file, device = "cpu";
+  std::vector<std::string> set;
+  int threads = 1;
+  bool lines = false;
+};
+
+std::string duration(double seconds) {
+  return fmt::format("{:%H:%M:%S}", std::chrono::seconds(static_cast<long>(seconds + 0.5)));
+}
+
+/// Shows an epoch: machine-readable lines, one changing line on a terminal, else a line now and
+/// then.
+class Shown {
+ public:
+  Shown(bool lines, int epochs)
+      : lines_(lines), terminal_(::isatty(STDERR_FILENO) == 1), epochs_(epochs) {}
+  ~Shown() {
+    if (terminal_ && any_) fmt::print(stderr, "\n");
+  }
+  Shown(const Shown&) = delete;
+  Shown& operator=(const Shown&) = delete;
+
+  void operator()(int epoch, double loss, double left) {
+    if (lines_) {
+      fmt::print("epoch {} {} {:.9g} {:.1f}\n", epoch, epochs_, loss, left);
+      std::fflush(stdout);
+      return;
+    }
+    if (Clock::now() - last_ < std::chrono::milliseconds(terminal_ ? 200 : 10000)) return;
+    last_ = Clock::now();
+    any_ = true;
+    fmt::print(stderr, "{}epoch {} of {}, loss {:.6f}, {} left{}", terminal_ ? "\r" : "", epoch,
+               epochs_, loss, duration(left), terminal_ ? "   " : "\n");
+  }
+
+ private:
+  bool lines_, terminal_, any_ = false;
+  int epochs_;
+  Clock::time_point last_;
+};
+
+Json read_json(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(fmt::format("'{}' cannot be read", file));
+  try {
+    return Json::parse(stream);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("'{}': {}", file, error.what()));
+  }
+}
+
+/// Puts `network.width=0.25` into the options: the value as JSON, or else as text.
+void set_option(Json& options, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw InputError(fmt::format("--set {}: must be NAME=VALUE", assignment));
+  }
+  Json* at = &options;
+  std::string name = assignment.substr(0, equals);
+  if (name.starts_with("network.")) {
+    at = &options["network"];
+    name = name.substr(8);
+  }
+  if (!at->contains(name) || name == "network") {
+    std::vector<std::string> known;
+    for (const auto& [key, value] : options.items()) {
+      if (key != "network") known.push_back(key);
+    }
+    for (const auto& [key, value] : options["network"].items()) known.push_back("network." + key);
+    throw InputError(fmt::format("--set {}: there is no such option; there are {}", assignment,
+                                 fmt::join(known, ", ")));
+  }
+  const std::string value = assignment.substr(equals + 1);
+  Json parsed = Json::parse(value, nullptr, /*allow_exceptions=*/false);
+  (*at)[name] = parsed.is_discarded() ? Json(value) : std::move(parsed);
+}
+
+int train(const Arguments& a, std::stop_token stop) {
+  const neural::DataSet data = neural::read_data_set(a.data);
+  training::TrainingOptions defaults;
+  defaults.network.features = std::max(1, data.features);
+  if (!data.patterns.empty()) {
+    defaults.network.resolutions.clear();
+    for (const auto& [r, field] : data.patterns.front().fields) {
+      defaults.network.resolutions.push_back(r);
+    }
+  }
+  Json json = training::to_json(defaults);
+  if (!a.options_file.empty()) json = read_json(a.options_file);
+  for (const std::string& assignment : a.set) set_option(json, assignment);
+  const training::TrainingOptions options = training::training_options_from_json(json);
+
+  if (!a.lines) {
+    fmt::print(stderr, "{}: {} patterns, {:.1f} million parameters\n", data.shape,
+               data.patterns.size(),
+               static_cast<double>(neural::parameter_count(options.network)) / 1e6);
+  }
+  Shown shown(a.lines, options.epochs);
+  const training::TrainingRun run{
+      .threads = a.threads,
+      .device = a.device,
+      .checkpoints = a.checkpoints.empty() ? a.out + ".checkpoints" : a.checkpoints,
+      .stop = stop,
+      .progress = std::ref(shown)};
+  neural::write_model(a.out, training::train(data, options, run));
+  if (!a.lines) fmt::print(stderr, "\n{}\n", a.out);
+  return kGood;
+}
+
+Json describe(const neural::Model& model) {
+  Json json{{"kind", "model"},
+            {"shape", model.shape},
+            {"shape_digest", model.shape_digest},
+            {"network", to_json(model.network)},
+            {"parameters", neural::parameter_count(model.network)},
+            {"codebook_rows", model.rows()},
+            {"max_impulse", model.scaling.max_impulse},
+            {"epochs", model.epochs.size()}};
+  if (!model.epochs.empty()) json["loss"] = model.epochs.back().loss;
+  const Json provenance = Json::parse(model.provenance, nullptr, false);
+  json["provenance"] = provenance.is_discarded() ? Json(model.provenance) : provenance;
+  return json;
+}
+
+Json describe(const neural::DataSet& data) {
+  Json json{{"kind", "data set"},
+            {"shape", data.shape},
+            {"shape_digest", data.shape_digest},
+            {"patterns", data.patterns.size()},
+            {"features", data.features},
+            {"max_impulse", data.scaling.max_impulse}};
+  for (const auto& [r, field] :
+       data.patterns.empty() ? std::map<int, std::vector<float>>() : data.patterns.front().fields) {
+    json["resolutions"].push_back(r);
+  }
+  return json;
+}
+
+int info(const std::string& file, bool losses) {
+  Json json;
+  try {
+    const neural::Model model = neural::read_model(file);
+    json = describe(model);
+    if (losses) {
+      for (const neural::EpochRecord& epoch : model.epochs) {
+        json["epoch_loss"].push_back(epoch.loss);
+        json["epoch_seconds"].push_back(epoch.seconds);
+      }
+    }
+  } catch (const InputError& not_a_model) {
+    try {
+      json = describe(neural::read_data_set(file));
+    } catch (const InputError& not_a_data_set) {
+      throw InputError(fmt::format("as a model: {}; as a data set: {}", not_a_model.what(),
+                                   not_a_data_set.what()));
+    }
+  }
+  fmt::print("{}\n", json.dump(2));
+  return kGood;
+}
+
+int run_program(int argc, char** argv, std::stop_token stop) {
+  CLI::App app(kAbout, "fracbench-train");
+  app.require_subcommand(1);
+  std::function<int()> chosen;
+
+  Arguments a;
+  auto* command = app.add_subcommand("train", "Trains a network, or goes on with it");
+  command->add_option("DATASET", a.data, "Data set file, from 'fracbench export-learning'")
+      ->required();
+  command->add_option("--out", a.out, "The model's file")->required();
+  command->add_option("--checkpoints", a.checkpoints, "Folder (default: OUT.checkpoints)");
+  command->add_option("--options", a.options_file, "All options of the training, as JSON");
+  command->add_option("--set", a.set,
+                      "NAME=VALUE: one of them, e.g. epochs=200, network.width=0.25");
+  command->add_option("--device", a.device, "cpu or cuda")->capture_default_str();
+  command->add_option("--threads", a.threads, "Of the processor")->capture_default_str();
+  command->add_flag("--progress-lines", a.lines,
+                    "A line 'epoch DONE ALL LOSS SECONDS_LEFT' for each epoch on standard output");
+  command->callback([&] { chosen = [&] { return train(a, stop); }; });
+
+  std::string file;
+  bool losses = false;
+  auto* about = app.add_subcommand("info", "Says as JSON what a model or data set file holds");
+  about->add_option("FILE", file)->required();
+  about->add_flag("--losses", losses, "With the loss and the time of every epoch");
+  about->callback([&] { chosen = [&] { return info(file, losses); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kGood : kBadInput;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Interrupt interrupt;
+  const auto fail = [](const char* what, int code) {
+    fmt::print(stderr, "fracbench-train: {}\n", what);
+    return code;
+  };
+  try {
+    return run_program(argc, argv, interrupt.token());
+  } catch (const Cancelled&) {
+    return fail("stopped; the same command goes on from the last epoch", kNotDone);
+  } catch (const InputError& error) {
+    return fail(error.what(), kBadInput);
+  } catch (const training::TrainingFailure& error) {
+    return fail(error.what(), kBadInput);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; a smaller width or resolution needs less", kNotDone);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kInternal);
+  }
+}
