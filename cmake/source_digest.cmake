@@ -26,7 +26,12 @@ if(CMAKE_SCRIPT_MODE_FILE)
   set(text "// Made by cmake/source_digest.cmake from the sources of each method.\n")
   foreach(entry ${entries})
     if(IS_DIRECTORY ${ROOT}/methods/${entry})
-      digest_of_folders(digest core geometry methods/${entry})
+      set(rooms core geometry)
+      if(EXISTS ${ROOT}/methods/${entry}/digest_also.txt)  # further rooms, one a line
+        file(STRINGS ${ROOT}/methods/${entry}/digest_also.txt further)
+        list(APPEND rooms ${further})
+      endif()
+      digest_of_folders(digest ${rooms} methods/${entry})
       string(APPEND text "{\"${entry}\", \"${digest}\"},\n")
     endif()
   endforeach()
@@ -37,7 +42,8 @@ endif()
 
 function(fracbench_source_digests target)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS
-    ${PROJECT_SOURCE_DIR}/core/* ${PROJECT_SOURCE_DIR}/geometry/* ${PROJECT_SOURCE_DIR}/methods/*)
+    ${PROJECT_SOURCE_DIR}/core/* ${PROJECT_SOURCE_DIR}/geometry/* ${PROJECT_SOURCE_DIR}/methods/*
+    ${PROJECT_SOURCE_DIR}/neural/* ${PROJECT_SOURCE_DIR}/training/*)
   set(folder ${PROJECT_BINARY_DIR}/generated)
   file(MAKE_DIRECTORY ${folder})
   set(script ${PROJECT_SOURCE_DIR}/cmake/source_digest.cmake)

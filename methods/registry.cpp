@@ -9,7 +9,9 @@
 #include "core/text.h"
 #include "methods/bem/bem.h"
 #include "methods/cvd/cvd.h"
+#include "methods/deepfracture/deepfracture.h"
 #include "methods/modes/modes.h"
+#include "methods/nearest-pattern/nearest_pattern.h"
 
 namespace fracbench {
 
@@ -67,8 +69,8 @@ std::vector<std::unique_ptr<Method>> registered() {
 }  // namespace
 
 const std::vector<std::unique_ptr<Method>>& methods() {
-  static const std::vector<std::unique_ptr<Method>> list = registered<  //
-      CvdMethod, BemMethod, ModesMethod                                 //
+  static const std::vector<std::unique_ptr<Method>> list = registered<             //
+      CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod  //
       >();
   return list;
 }

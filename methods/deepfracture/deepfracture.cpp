@@ -1,0 +1,130 @@
+#include "methods/deepfracture/deepfracture.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "methods/deepfracture/deepfracture_body.h"
+#include "methods/deepfracture/patterns.h"
+#include "methods/deepfracture/settings.h"
+#include "methods/deepfracture/trainer.h"
+
+namespace fracbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using deepfracture::DeepFractureBody;
+using deepfracture::Settings;
+
+// Patterns that the ceiling and the decoder are judged with: enough for a mean.
+constexpr std::size_t kJudged = 100;
+
+/// A folder to work in: the one that outlives interruptions where there is one, else one of our own
+/// that is removed.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& checkpoints) : path_(checkpoints) {
+    if (!path_.empty()) {
+      fs::create_directories(path_);
+      return;
+    }
+    std::string name = (fs::temp_directory_path() / "fracbench-training-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw InputError(fmt::format("no folder can be made in '{}'; set TMPDIR",
+                                   fs::temp_directory_path().string()));
+    }
+    path_ = name;
+    temporary_ = true;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    if (temporary_) fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+  bool temporary_ = false;
+};
+
+nlohmann::ordered_json to_json(const Material& m) {
+  return {{"young_modulus", m.young_modulus},
+          {"poisson_ratio", m.poisson_ratio},
+          {"density", m.density},
+          {"strength", m.strength},
+          {"toughness", m.toughness},
+          {"compressive_factor", m.compressive_factor}};
+}
+
+neural::Model trained(const neural::DataSet& data, const Settings& settings,
+                      const Context& context) {
+  const WorkFolder folder(context.checkpoints);
+  const fs::path data_set = folder.path() / "patterns.data", model = folder.path() / "model";
+  neural::write_data_set(data_set, data);
+  deepfracture::run_trainer({.data_set = data_set,
+                             .model = model,
+                             .checkpoints = folder.path(),
+                             .options = settings.training().dump(2)},
+                            context);
+  return neural::read_model(model);
+}
+
+}  // namespace
+
+MethodInfo DeepFractureMethod::info() const {
+  MethodInfo info;
+  info.name = "deepfracture";
+  info.summary = "fracture patterns predicted by a network that learned from crack propagation";
+  info.citation =
+      "Huang, Kanai, \"DeepFracture: A Generative Approach for Predicting Brittle Fractures with "
+      "Neural Discrete Representation Learning\"";
+  info.shape_type = "crack-propagation like";
+  info.random = true;
+  info.learns = true;
+  return info;
+}
+
+OptionsSchema DeepFractureMethod::options() const { return deepfracture::options_schema(); }
+
+std::unique_ptr<Breakable> DeepFractureMethod::prepare(const Target& target,
+                                                       const LearningData& learning,
+                                                       const Options& options,
+                                                       Context& context) const {
+  Settings settings = deepfracture::settings_from(options);
+  if (!settings.model.empty()) {
+    return std::make_unique<DeepFractureBody>(target, settings, neural::read_model(settings.model),
+                                              deepfracture::Agreement{});
+  }
+  settings.seed = context.random.bits() >> 1;  // a number that every reader of JSON understands
+  neural::DataSet data;
+  {
+    const auto stage = context.timer.stage("distance_fields");
+    data = make_data_set(target, learning, settings, context);
+    data.provenance = nlohmann::ordered_json{{"material", to_json(target.material)},
+                                             {"truncation", settings.truncation}}
+                          .dump();
+  }
+  neural::Model model;
+  {
+    const auto stage = context.timer.stage("training");
+    model = trained(data, settings, context);
+  }
+  const auto stage = context.timer.stage("judging");
+  deepfracture::Agreement agreement =
+      measure_agreement(learning, data, model, settings, context, kJudged);
+  return std::make_unique<DeepFractureBody>(target, settings, std::move(model),
+                                            std::move(agreement));
+}
+
+std::unique_ptr<Breakable> DeepFractureMethod::load(const fs::path& folder, const Target& target,
+                                                    const Options& options) const {
+  return load_body(folder, target, deepfracture::settings_from(options));
+}
+
+}  // namespace fracbench

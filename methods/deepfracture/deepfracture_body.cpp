@@ -1,0 +1,131 @@
+#include "methods/deepfracture/deepfracture_body.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/array_file.h"
+#include "core/error.h"
+#include "core/impulse_vector.h"
+#include "core/random.h"
+#include "geometry/measures.h"
+
+namespace fracbench::deepfracture {
+
+namespace {
+
+constexpr ArrayFileKind kAgreementKind{.format = "fracbench agreement", .version = 1};
+constexpr const char* kModelFile = "model.fracbench";
+constexpr const char* kAgreementFile = "agreement.fracbench";
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+void check_model(const neural::Model& model, const Target& target, const Settings& settings) {
+  const auto refuse = [](std::string why) { throw InputError("deepfracture: the model " + why); };
+  if (model.shape_digest != shape_digest(target.mesh)) {
+    refuse(fmt::format("was trained for another mesh ('{}') than '{}'", model.shape, target.name));
+  }
+  const auto& list = model.network.resolutions;
+  if (std::ranges::find(list, settings.resolution) == list.end()) {
+    refuse(fmt::format("has outputs of resolution {}, wanted is {}; set option 'resolution'",
+                       fmt::join(list, ", "), settings.resolution));
+  }
+  if (model.rows() == 0) refuse("has an empty codebook: it was not trained to the end of an epoch");
+}
+
+/// The whole body, where nothing was cut.
+std::vector<Piece> whole(const TriangleMesh& mesh) {
+  Piece piece{.mesh = mesh, .faces = {}, .next = nullptr};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    piece.faces.push_back({.parent_face = static_cast<std::int32_t>(f), .neighbour = -1});
+  }
+  std::vector<Piece> pieces;
+  pieces.push_back(std::move(piece));
+  return pieces;
+}
+
+}  // namespace
+
+DeepFractureBody::DeepFractureBody(const Target& target, Settings settings, neural::Model model,
+                                   Agreement agreement)
+    : mesh_(target.mesh),
+      settings_(std::move(settings)),
+      model_((check_model(model, target, settings_), std::move(model))),
+      agreement_(std::move(agreement)),
+      decoder_(model_) {}
+
+VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& context) const {
+  const std::vector<float> impulses =
+      impulse_vector(impact, model_.scaling, model_.network.features);
+  std::vector<float> code;
+  if (settings_.quantise) {
+    const std::size_t row = neural::nearest_row(model_, impulses, context.random);
+    context.note(fmt::format("deepfracture: row {} of {} of the codebook, training pattern {}",
+                             row + 1, model_.rows(), model_.codebook_pattern[row] + 1));
+    code.assign(model_.row(row).begin(), model_.row(row).end());
+  } else {
+    code = neural::encode(model_.siren, impulses);
+    const auto segment = neural::random_segment_code(model_.network.segment_code, context.random);
+    code.insert(code.end(), segment.begin(), segment.end());
+  }
+  return decoder_.decode(code, settings_.resolution, context.threads);
+}
+
+std::vector<Piece> DeepFractureBody::fracture(const Impact& impact, Context& context) const {
+  if (!agreement_.round_trip.empty()) {
+    context.note(
+        fmt::format("deepfracture: {} training patterns at r = {}: adjusted Rand index {:.3f} from "
+                    "exact fields "
+                    "(the ceiling), {:.3f} decoded",
+                    agreement_.round_trip.size(), settings_.resolution, mean(agreement_.round_trip),
+                    mean(agreement_.decoded)));
+  }
+  VoxelGrid<float> field;
+  {
+    const auto stage = context.timer.stage("prediction");
+    field = predict(impact, context);
+  }
+  context.stop_if_asked();
+  Segmentation segments;
+  {
+    const auto stage = context.timer.stage("segmentation");
+    SegmentationOptions options = settings_.segmentation;
+    options.threads = context.threads;
+    try {
+      segments = caged_sdf_segmentation(field, options);
+    } catch (const InputError& error) {
+      throw MethodFailure(
+          fmt::format("deepfracture: the predicted field cannot be segmented: {}", error.what()));
+    }
+  }
+  context.stop_if_asked();
+  if (segments.count < 2) return whole(mesh_);
+  const auto stage = context.timer.stage("boolean");
+  PartitionOptions options = settings_.partition;
+  options.threads = context.threads;
+  return partition_by_labels(mesh_, segments.labels, options).pieces;
+}
+
+void DeepFractureBody::save(const std::filesystem::path& folder) const {
+  neural::write_model(folder / kModelFile, model_);
+  ArrayFile file;
+  file.reals = {{"round_trip", agreement_.round_trip}, {"decoded", agreement_.decoded}};
+  write_array_file(folder / kAgreementFile, file, kAgreementKind);
+}
+
+std::unique_ptr<DeepFractureBody> load_body(const std::filesystem::path& folder,
+                                            const Target& target, Settings settings) {
+  ArrayFile file = read_array_file(folder / kAgreementFile, kAgreementKind);
+  Agreement agreement{.round_trip = file.reals["round_trip"], .decoded = file.reals["decoded"]};
+  if (agreement.round_trip.size() != agreement.decoded.size()) {
+    throw InputError(fmt::format("'{}' is damaged", (folder / kAgreementFile).string()));
+  }
+  return std::make_unique<DeepFractureBody>(
+      target, std::move(settings), neural::read_model(folder / kModelFile), std::move(agreement));
+}
+
+}  // namespace fracbench::deepfracture

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+
+#include "core/breakable.h"
+#include "core/target.h"
+#include "methods/deepfracture/patterns.h"
+#include "methods/deepfracture/settings.h"
+#include "neural/model.h"
+#include "neural/voxel_decoder.h"
+
+namespace fracbench::deepfracture {
+
+/// A target with the model that was trained for it.
+class DeepFractureBody : public Breakable {
+ public:
+  /// Throws InputError where the model is of another shape, has no output of the wanted resolution
+  /// or takes another number of impulses.
+  DeepFractureBody(const Target& target, Settings settings, neural::Model model,
+                   Agreement agreement);
+
+  /// Algorithm 2 of the paper, lines 6 and 7: prediction, segmentation, cut.
+  std::vector<Piece> fracture(const Impact& impact, Context& context) const override;
+
+  /// Writes model.fracbench (neural::write_model) and agreement.fracbench.
+  void save(const std::filesystem::path& folder) const override;
+
+  const neural::Model& model() const { return model_; }
+  const Agreement& agreement() const { return agreement_; }
+
+ private:
+  VoxelGrid<float> predict(const Impact& impact, Context& context) const;
+
+  TriangleMesh mesh_;
+  Settings settings_;
+  neural::Model model_;
+  Agreement agreement_;
+  neural::VoxelDecoder decoder_;
+};
+
+/// Reads what `save` wrote. Throws InputError where it is damaged or does not fit the target.
+std::unique_ptr<DeepFractureBody> load_body(const std::filesystem::path& folder,
+                                            const Target& target, Settings settings);
+
+}  // namespace fracbench::deepfracture

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/context.h"
+#include "neural/model.h"
+
+namespace fracbench::deepfracture {
+
+struct TrainerCall {
+  std::filesystem::path data_set;     ///< neural::write_data_set
+  std::filesystem::path model;        ///< to be written
+  std::filesystem::path checkpoints;  ///< folder
+  std::string options;                ///< JSON of training::TrainingOptions
+};
+
+/// The program fracbench-train: what FRACBENCH_TRAINER names, or beside the running program. Throws
+/// InputError where it is not there, with the way out.
+std::filesystem::path trainer_program();
+
+/// Trains in a process of its own, which ends when it is to stop (Cancelled) and reports through
+/// context.progress; uses context.threads and context.device. Throws InputError for what the
+/// program refuses, MethodFailure where it fails otherwise, with what it said.
+void run_trainer(const TrainerCall& call, const Context& context);
+
+}  // namespace fracbench::deepfracture
