@@ -37,17 +37,6 @@ void check_model(const neural::Model& model, const Target& target, const Setting
   if (model.rows() == 0) refuse("has an empty codebook: it was not trained to the end of an epoch");
 }
 
-/// The whole body, where nothing was cut.
-std::vector<Piece> whole(const TriangleMesh& mesh) {
-  Piece piece{.mesh = mesh, .faces = {}, .next = nullptr};
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    piece.faces.push_back({.parent_face = static_cast<std::int32_t>(f), .neighbour = -1});
-  }
-  std::vector<Piece> pieces;
-  pieces.push_back(std::move(piece));
-  return pieces;
-}
-
 }  // namespace
 
 DeepFractureBody::DeepFractureBody(const Target& target, Settings settings, neural::Model model,
@@ -58,6 +47,18 @@ DeepFractureBody::DeepFractureBody(const Target& target, Settings settings, neur
       agreement_(std::move(agreement)),
       decoder_(model_) {}
 
+/// Says how often another random code would have chosen another row: the ablation of the random
+/// codes. Takes nothing from the random numbers that the prediction is made with.
+void DeepFractureBody::note_other_rows(std::size_t row, std::span<const float> impulses,
+                                       Context& context) const {
+  constexpr int kCodes = 64;
+  Random random = context.random.fork("further codes");
+  int others = 0;
+  for (int n = 0; n < kCodes; ++n) others += neural::nearest_row(model_, impulses, random) != row;
+  context.note(fmt::format("deepfracture: {} of {} further random codes choose another row", others,
+                           kCodes));
+}
+
 VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& context) const {
   const std::vector<float> impulses =
       impulse_vector(impact, model_.scaling, model_.network.features);
@@ -66,6 +67,7 @@ VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& contex
     const std::size_t row = neural::nearest_row(model_, impulses, context.random);
     context.note(fmt::format("deepfracture: row {} of {} of the codebook, training pattern {}",
                              row + 1, model_.rows(), model_.codebook_pattern[row] + 1));
+    note_other_rows(row, impulses, context);
     code.assign(model_.row(row).begin(), model_.row(row).end());
   } else {
     code = neural::encode(model_.siren, impulses);
@@ -90,24 +92,7 @@ std::vector<Piece> DeepFractureBody::fracture(const Impact& impact, Context& con
     field = predict(impact, context);
   }
   context.stop_if_asked();
-  Segmentation segments;
-  {
-    const auto stage = context.timer.stage("segmentation");
-    SegmentationOptions options = settings_.segmentation;
-    options.threads = context.threads;
-    try {
-      segments = caged_sdf_segmentation(field, options);
-    } catch (const InputError& error) {
-      throw MethodFailure(
-          fmt::format("deepfracture: the predicted field cannot be segmented: {}", error.what()));
-    }
-  }
-  context.stop_if_asked();
-  if (segments.count < 2) return whole(mesh_);
-  const auto stage = context.timer.stage("boolean");
-  PartitionOptions options = settings_.partition;
-  options.threads = context.threads;
-  return partition_by_labels(mesh_, segments.labels, options).pieces;
+  return reconstruct(mesh_, field, settings_.reconstruct, context);
 }
 
 void DeepFractureBody::save(const std::filesystem::path& folder) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "core/breakable.h"
 #include "core/target.h"
@@ -29,6 +30,7 @@ class DeepFractureBody : public Breakable {
   const Agreement& agreement() const { return agreement_; }
 
  private:
+  void note_other_rows(std::size_t row, std::span<const float> impulses, Context& context) const;
   VoxelGrid<float> predict(const Impact& impact, Context& context) const;
 
   TriangleMesh mesh_;

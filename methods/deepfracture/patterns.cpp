@@ -78,7 +78,7 @@ Agreement measure_agreement(const LearningData& learning, const neural::DataSet&
   Agreement result;
   const neural::VoxelDecoder decoder(model);
   const std::size_t count = std::min(most, model.rows());
-  SegmentationOptions segmentation = settings.segmentation;
+  SegmentationOptions segmentation = settings.reconstruct.segmentation;
   segmentation.threads = context.threads;
   for (std::size_t row = 0; row < count; ++row) {
     context.stop_if_asked();

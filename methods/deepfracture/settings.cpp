@@ -101,10 +101,12 @@ OptionsSchema options_schema() {
       integer("least_patterns", 2, "", "fewer fractures to learn from are refused", 1, 1e6),
       number("cage", 0, "m", "width added around the body; 0: 0.03, or half a voxel", 0, 1),
       number("h", 3, "of 255", "depth that a basin needs to become a fragment", 0, 255),
+      choice("fracture_surfaces", "how fine they are: as the grid, or as the body's own surface",
+             {"as-grid", "as-surface"}),
       {.name = "parity",
        .fallback = false,
        .unit = "",
-       .summary = "as the authors' program: segmentation with its losses, variances + 0.8"},
+       .summary = "as the authors' program: dams and small fragments are lost, variances + 0.8"},
       {.name = "model",
        .fallback = std::string(),
        .unit = "",
@@ -140,9 +142,10 @@ Settings settings_from(const Options& options) {
   s.truncation = options.number("truncation");
   s.least_patterns = static_cast<int>(options.integer("least_patterns"));
   s.model = options.text("model");
-  if (options.number("cage") > 0) s.segmentation.cage = options.number("cage");
-  s.segmentation.h = options.number("h");
-  s.segmentation.parity = parity;
+  if (options.number("cage") > 0) s.reconstruct.segmentation.cage = options.number("cage");
+  s.reconstruct.segmentation.h = options.number("h");
+  s.reconstruct.segmentation.parity = parity;
+  s.reconstruct.as_coarse_as_surface = options.text("fracture_surfaces") == "as-surface";
   if (s.model.empty() &&
       std::ranges::find(s.network.resolutions, s.resolution) == s.network.resolutions.end()) {
     throw InputError(

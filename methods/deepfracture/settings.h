@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "core/options.h"
-#include "geometry/caged_sdf_segmentation.h"
-#include "geometry/partition_by_labels.h"
+#include "methods/deepfracture/reconstruct.h"
 #include "neural/network_options.h"
 
 namespace fracbench::deepfracture {
@@ -20,8 +19,7 @@ struct Settings {
   int least_patterns = 2;
   bool quantise = true;         ///< decode the nearest row of the codebook, else the code itself
   std::filesystem::path model;  ///< trained elsewhere; empty: train
-  SegmentationOptions segmentation;
-  PartitionOptions partition;
+  ReconstructOptions reconstruct;
 
   // What only the training needs.
   int epochs = 1000;
