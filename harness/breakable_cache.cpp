@@ -4,6 +4,7 @@
 
 #include "core/digest.h"
 #include "harness/learning_set.h"
+#include "harness/prepared_store.h"
 
 namespace fracbench {
 
@@ -33,22 +34,27 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
   context.stop_if_asked();
   if (entry->made) return entry->prepared;
 
-  const auto start = std::chrono::steady_clock::now();
   Prepared prepared;
   prepared.target = std::make_shared<Target>(
       Target{.name = shape.shape.name, .mesh = shape.shape.mesh, .material = material});
-  LearningData learning;
+  PreparedRequest request{
+      .method = *method.method, .options = method.options, .target = *prepared.target};
   if (method.info.learns) {
-    learning = load_learning_data(plan_.learning_folder, shape.label, shape.learning_digest);
+    request.learning_digest = shape.learning_digest;
+    request.learning = [&] {
+      return load_learning_data(plan_.learning_folder, shape.label, shape.learning_digest);
+    };
   }
+  const auto start = std::chrono::steady_clock::now();
   try {
-    prepared.breakable =
-        method.method->prepare(*prepared.target, learning, method.options, context);
+    PreparedBody body = prepare_body(request, context);
+    prepared.breakable = std::move(body.body);
+    prepared.seconds = body.seconds;
   } catch (const MethodFailure& failure) {
     prepared.failure = failure.what();
+    prepared.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  prepared.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   entry->prepared = prepared;
   entry->made = true;
   prepared.fresh = true;

@@ -16,11 +16,12 @@ struct Prepared {
   std::shared_ptr<const Target> target;
   std::shared_ptr<const Breakable> breakable;  ///< null where the method gave up
   std::string failure;                         ///< why, then
-  double seconds = 0;                          ///< that it took
-  bool fresh = false;                          ///< it was made by this call
+  double seconds = 0;                          ///< that it took, in whichever process made it
+  bool fresh = false;                          ///< it was made or read by this call
 };
 
-/// Prepared bodies, made once for a shape, a method with its options and a material. For many
+/// Prepared bodies, made or taken from the user's store (prepared_store.h) once for a shape, a
+/// method with its options and a material. For many
 /// threads: who comes while a body is being made waits for it.
 class BreakableCache {
  public:

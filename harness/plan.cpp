@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "harness/build_info.h"
 #include "harness/learning_plan.h"
+#include "harness/prepared_store.h"
 
 namespace fracbench {
 
@@ -131,6 +132,7 @@ std::string cell_key(const KeyParts& parts, const Cell& cell) {
   digest.add(std::string_view(parts.method.info.name));
   digest.add(std::string_view(parts.options_json));
   digest.add(std::string_view(parts.method.info.source_digest));
+  if (!parts.method.files_digest.empty()) digest.add(parts.method.files_digest);
   digest.add(static_cast<std::uint64_t>(parts.suite.threads_per_cell));
   digest.add(cell.seed);
   digest.add(cell.prepare_seed);
@@ -241,10 +243,13 @@ Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& op
   for (const SuiteMethod& entry :
        kept(suite.methods, options.methods, "--methods", [](const auto& m) { return m.name; })) {
     const Method& method = catalog.method(entry.name, suite.name);
+    MethodInfo info = method.info();
+    info.learns = method.learns(entry.options);
     plan.methods.push_back({.label = entry.label,
                             .method = &method,
-                            .info = method.info(),
+                            .info = std::move(info),
                             .options = entry.options,
+                            .files_digest = digest_of_files(method, entry.options),
                             .limits = entry.limits,
                             .shapes = entry.shapes});
   }

@@ -46,6 +46,7 @@ struct PlannedMethod {
   const Method* method = nullptr;
   MethodInfo info;
   Options options;
+  std::string files_digest = {};  ///< of the files that the options name; empty where none
   CellLimits limits = {};
   std::vector<std::string> shapes = {};  ///< labels of those that it breaks; empty: all
 

@@ -19,11 +19,13 @@ struct MethodInfo {
   std::string name;     ///< as in suites and on the command line
   std::string summary;  ///< one line
   std::string citation;
-  std::string shape_type;          ///< "Voronoi", "crack propagation", "cutting", ...
-  bool retains_surface = true;     ///< fragments carry the original surface unchanged
-  bool refracture = false;         ///< pieces may break again
-  bool random = false;             ///< another seed gives other pieces
-  bool learns = false;             ///< prepare() needs LearningData
+  std::string shape_type;       ///< "Voronoi", "crack propagation", "cutting", ...
+  bool retains_surface = true;  ///< fragments carry the original surface unchanged
+  bool refracture = false;      ///< pieces may break again
+  bool random = false;          ///< another seed gives other pieces
+  bool learns = false;          ///< prepare() needs LearningData
+  /// Preparing a body takes no longer than reading what save() wrote: it is not kept on the disk.
+  bool quick_to_prepare = false;
   double volume_tolerance = 1e-9;  ///< allowed |volume_ratio - 1|
   /// Digest of the sources that the method is built from, so that records of an edited method are
   /// not mistaken for its own. Filled in by the registry.
@@ -63,6 +65,19 @@ class Method {
   /// Reads what Breakable::save wrote below `folder` for the same target and options.
   virtual std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,
                                           const Options& options) const = 0;
+
+  /// Whether it learns with these options: not where they name a model that is there already.
+  virtual bool learns(const Options& options) const {
+    (void)options;
+    return info().learns;
+  }
+
+  /// Files that the options name and whose content determines the result: their digests are part of
+  /// the keys of records and of prepared bodies.
+  virtual std::vector<std::filesystem::path> files(const Options& options) const {
+    (void)options;
+    return {};
+  }
 
   /// The cases that hold the method to closed forms and published results, cheapest first.
   virtual std::vector<ValidationCase> validation() const { return {}; }

@@ -52,6 +52,10 @@ class Registered : public Method {
                                   const Options& options) const override {
     return method_->load(folder, target, options);
   }
+  bool learns(const Options& options) const override { return method_->learns(options); }
+  std::vector<std::filesystem::path> files(const Options& options) const override {
+    return method_->files(options);
+  }
   std::vector<ValidationCase> validation() const override { return method_->validation(); }
 
  private:

@@ -21,6 +21,7 @@
 #include "core/error.h"
 #include "core/peak_memory.h"
 #include "geometry/write_mesh.h"
+#include "harness/prepared_store.h"
 #include "methods/registry.h"
 #include "scenarios/break_test.h"
 #include "scenarios/given_impact.h"
@@ -122,7 +123,8 @@ Broken break_body(const FractureArguments& arguments, const Method& method, cons
   try {
     const std::shared_ptr<const Breakable> breakable = [&] {
       const auto stage = context.timer.stage("prepare");
-      return method.prepare(target, {}, options, context);
+      return std::move(
+          prepare_body({.method = method, .options = options, .target = target}, context).body);
     }();
     if (!arguments.impact.empty()) return break_by_impact(arguments, target, *breakable, context);
     return break_by_scene(scenario_of(arguments), target, breakable, context);

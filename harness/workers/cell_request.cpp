@@ -69,11 +69,13 @@ WorkerJob decode_job(std::string_view bytes, const Catalog& catalog) {
   const std::string name = tree.text("method/name");
   const Method& method = catalog.method(name, "worker");
   try {
-    job.plan.methods.push_back(
-        {.label = tree.text("method/label"),
-         .method = &method,
-         .info = method.info(),
-         .options = Options(method.options(), options_from(tree.text("method/options")), name)});
+    Options options(method.options(), options_from(tree.text("method/options")), name);
+    MethodInfo info = method.info();
+    info.learns = method.learns(options);
+    job.plan.methods.push_back({.label = tree.text("method/label"),
+                                .method = &method,
+                                .info = std::move(info),
+                                .options = std::move(options)});
   } catch (const Json::exception& error) {
     throw DataError(fmt::format("has options that cannot be read: {}", error.what()));
   }

@@ -27,6 +27,7 @@ MethodInfo BemMethod::info() const {
       "simulation\", ACM TOG 35(4), 2016";
   info.shape_type = "crack propagation";
   info.refracture = true;
+  info.quick_to_prepare = true;
   return info;
 }
 

@@ -167,6 +167,7 @@ MethodInfo CvdMethod::info() const {
       "SIAM Review 41(4), 1999; cells by Rycroft, \"Voro++\", Chaos 19, 2009";
   info.shape_type = "Voronoi";
   info.random = true;
+  info.quick_to_prepare = true;
   return info;
 }
 

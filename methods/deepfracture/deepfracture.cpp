@@ -123,6 +123,15 @@ std::unique_ptr<Breakable> DeepFractureMethod::prepare(const Target& target,
                                             std::move(agreement));
 }
 
+bool DeepFractureMethod::learns(const Options& options) const {
+  return options.text("model").empty();
+}
+
+std::vector<fs::path> DeepFractureMethod::files(const Options& options) const {
+  if (learns(options)) return {};
+  return {options.text("model")};
+}
+
 std::unique_ptr<Breakable> DeepFractureMethod::load(const fs::path& folder, const Target& target,
                                                     const Options& options) const {
   return load_body(folder, target, deepfracture::settings_from(options));

@@ -13,6 +13,8 @@ class DeepFractureMethod : public Method {
                                      const Options& options, Context& context) const override;
   std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,
                                   const Options& options) const override;
+  bool learns(const Options& options) const override;
+  std::vector<std::filesystem::path> files(const Options& options) const override;
 };
 
 }  // namespace fracbench

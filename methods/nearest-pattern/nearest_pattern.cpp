@@ -211,6 +211,7 @@ MethodInfo NearestPatternMethod::info() const {
   info.citation = "no paper: the baseline that a prediction is worth something beyond";
   info.shape_type = "crack-propagation like";
   info.learns = true;
+  info.quick_to_prepare = true;
   return info;
 }
 

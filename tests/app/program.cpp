@@ -30,7 +30,7 @@ Answer call_with_output(const std::string& arguments, const fs::path& folder,
                         const fs::path& output) {
   const TemporaryFolder streams;
   const fs::path errors = streams.path() / "err";
-  const std::string line = "cd '" + folder.string() + "' && exec '" FRACBENCH_PROGRAM "' " +
+  const std::string line = "cd '" + folder.string() + "' && FRACBENCH_CACHE= exec '" FRACBENCH_PROGRAM "' " +
                            arguments + " >'" + output.string() + "' 2>'" + errors.string() +
                            "' </dev/null";
   const int status = std::system(line.c_str());

@@ -204,6 +204,7 @@ class Hostile : public Method {
             .citation = "",
             .shape_type = "planar",
             .random = true,
+            .quick_to_prepare = true,
             .source_digest = "1"};
   }
   OptionsSchema options() const override {

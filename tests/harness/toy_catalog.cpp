@@ -86,6 +86,7 @@ class Halves : public Method {
             .citation = "",
             .shape_type = "planar",
             .random = true,
+            .quick_to_prepare = true,
             .source_digest = "1"};
   }
   OptionsSchema options() const override {
