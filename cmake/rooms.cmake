@@ -41,7 +41,7 @@ function(fracbench_tests room)
   target_link_libraries(test_${room} PRIVATE ${ARG_USES} third_party::gtest fracbench_settings)
   fracbench_source_folder_header(test_${room})
   gtest_discover_tests(test_${room} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 600 LABELS ${room})
+    PROPERTIES TIMEOUT 600 LABELS ${room} ENVIRONMENT FRACBENCH_CACHE=)
 endfunction()
 
 # Every file benchmarks/<name>_bench.cpp is a Google Benchmark program of its own.
