@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/cell_summary.h"
+#include "harness/reference_agreement.h"
 #include "metrics/cluster_bootstrap.h"
 #include "reports/table.h"
 
@@ -14,6 +15,7 @@ namespace fracbench {
 struct ReportInput {
   std::string title = {};  ///< such as the suite's name
   std::vector<CellSummary> cells = {};
+  std::vector<LabelAgreement> agreements = {};  ///< of the cells with the reference method
   /// Lines about where the results come from (program, machine, suite), shown under the title.
   std::vector<std::string> provenance = {};
   BootstrapOptions bootstrap = {};

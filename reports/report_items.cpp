@@ -3,6 +3,7 @@
 #include "reports/items/errata_table.h"
 #include "reports/items/fracture_surfaces.h"
 #include "reports/items/fragment_counts.h"
+#include "reports/items/label_agreement.h"
 #include "reports/items/overview.h"
 #include "reports/items/stage_times_table.h"
 #include "reports/items/validity_table.h"
@@ -18,6 +19,7 @@ const std::vector<std::unique_ptr<ReportItem>>& report_items() {
     list.push_back(std::make_unique<FragmentCounts>());
     list.push_back(std::make_unique<VolumeDistribution>());
     list.push_back(std::make_unique<FractureSurfaces>());
+    list.push_back(std::make_unique<LabelAgreementTable>());
     list.push_back(std::make_unique<StageTimesTable>());
     list.push_back(std::make_unique<ErrataTable>());
     return list;

@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "core/error.h"
 #include "harness/build_info.h"
+#include "harness/reference_agreement.h"
 #include "harness/summaries.h"
 #include "reports/write_report.h"
 
@@ -36,9 +37,10 @@ std::vector<std::string> provenance_of(const Results& results) {
   return lines;
 }
 
-ReportInput input_from(const Results& results) {
+ReportInput input_from(const Results& results, const std::filesystem::path& folder) {
   return {.title = results.suite.name,
           .cells = results.cells,
+          .agreements = agreement_with_reference(folder, results.cells),
           .provenance = provenance_of(results),
           .bootstrap = {},
           .seed = results.suite.values.value("seed", std::uint64_t{1})};
@@ -55,7 +57,8 @@ ExitCode report(ReportArguments arguments) {
                arguments.results.string(), results.suite.name);
     return ExitCode::not_measured;
   }
-  const std::filesystem::path file = write_report(input_from(results), arguments.out);
+  const std::filesystem::path file =
+      write_report(input_from(results, arguments.results), arguments.out);
   fmt::print("{}\n", file.string());
   return results.unreadable.empty() ? ExitCode::good : ExitCode::not_measured;
 }

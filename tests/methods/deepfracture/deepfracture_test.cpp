@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using learned_boxes::impact_at;
 using learned_boxes::same_pieces;
+using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -94,24 +95,21 @@ TEST_F(DeepFractureTest, EveryPredictionTellsTheCeilingAndWhatRandomCodesChange)
 }
 
 TEST_F(DeepFractureTest, EveryVariantCanBeTrained) {
-  for (const OptionMap& given :
-       std::vector<OptionMap>{{{"quantise", false}},
-                              {{"segment_codes", std::string("random")}},
-                              {{"segment_code", std::int64_t{0}}},
-                              {{"loss", std::string("dice")}},
-                              {{"loss", std::string("eikonal")}},
-                              {{"normalisation", std::string("group")}},
-                              {{"statistics", std::string("running")}},
-                              {{"statistics", std::string("reestimated")}},
-                              {{"features", std::int64_t{2}}},
-                              {{"fracture_surfaces", std::string("as-surface")}},
-                              {{"truncation", 0.1}}}) {
+  const std::vector<OptionMap> variants{
+      {{"quantise", false}, {"truncation", 0.1}},
+      {{"segment_codes", std::string("random")}, {"fracture_surfaces", std::string("as-surface")}},
+      {{"segment_code", std::int64_t{0}}, {"loss", std::string("dice")}},
+      {{"normalisation", std::string("group")}, {"loss", std::string("eikonal")}},
+      {{"statistics", std::string("running")}, {"parity", true}},
+      {{"statistics", std::string("reestimated")}, {"features", std::int64_t{2}}}};
+  for (const OptionMap& given : variants) {
     SCOPED_TRACE(given.begin()->first);
     const auto breakable = prepared(options(given));
     try {
       EXPECT_FALSE(broken(*breakable, 0.1).empty());
     } catch (const MethodFailure& failure) {  // so little training may leave nothing inside
-      EXPECT_THAT(failure.what(), HasSubstr("cannot be segmented"));
+      EXPECT_THAT(failure.what(),
+                  AnyOf(HasSubstr("cannot be segmented"), HasSubstr("none is left")));
     }
   }
 }
