@@ -46,6 +46,9 @@ DataSet data_set_of(ArrayFile& file) {
               s[3] > 0 && s[4] > 0,
           "scaling");
   data.scaling = {.centre = {s[0], s[1], s[2]}, .half_side = s[3], .max_impulse = s[4]};
+  const std::vector<double>& unit = file.reals["field_unit"];
+  require(unit.size() == 1 && std::isfinite(unit[0]) && unit[0] > 0, "field_unit");
+  data.field_unit = unit[0];
   for (const std::string& name :
        nlohmann::json::parse(text("names")).get<std::vector<std::string>>()) {
     data.patterns.push_back({.name = name, .impulses = {}, .fields = {}});
@@ -91,6 +94,7 @@ void write_data_set(const std::filesystem::path& file, const DataSet& data) {
       {"shape", data.shape}, {"shape_digest", data.shape_digest}, {"provenance", data.provenance}};
   const Vec3& c = data.scaling.centre;
   arrays.reals["scaling"] = {c.x(), c.y(), c.z(), data.scaling.half_side, data.scaling.max_impulse};
+  arrays.reals["field_unit"] = {data.field_unit};
   auto names = nlohmann::json::array();
   for (std::size_t k = 0; k < data.patterns.size(); ++k) {
     const Pattern& pattern = data.patterns[k];
@@ -120,7 +124,7 @@ std::string digest_of(const DataSet& data) {
   digest.add(data.shape_digest);
   digest.add(data.provenance);
   for (const double v : {data.scaling.centre.x(), data.scaling.centre.y(), data.scaling.centre.z(),
-                         data.scaling.half_side, data.scaling.max_impulse}) {
+                         data.scaling.half_side, data.scaling.max_impulse, data.field_unit}) {
     digest.add(v);
   }
   for (const Pattern& pattern : data.patterns) {

@@ -27,6 +27,9 @@ struct DataSet {
   std::string provenance;    ///< JSON: where the patterns come from, material included
   int features = 1;          ///< impulses in each pattern
   ImpulseScaling scaling;
+  /// m: what 1 stands for in a network's output, which tanh keeps within +-1. Where fields are
+  /// truncated, their limit: the network then sees them as large as it can tell them.
+  double field_unit = 1;
   std::vector<Pattern> patterns;
 
   bool operator==(const DataSet&) const = default;
@@ -36,6 +39,7 @@ struct DataSet {
 ///   patterns/<k>/impulses   float32, 7 values for each feature
 ///   patterns/<k>/<r>        float32, r^3 values
 ///   scaling                 float64: centre (3), half side, I_max
+///   field_unit              float64
 /// and the texts `shape`, `shape_digest`, `provenance` and `names` (JSON). Throws InputError.
 void write_data_set(const std::filesystem::path& file, const DataSet& data);
 

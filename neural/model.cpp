@@ -66,6 +66,8 @@ Model model_of(ArrayFile& file) {
   const std::vector<double> s = take.reals("scaling", 5);
   if (!(s[3] > 0 && s[4] > 0)) throw InputError("array 'scaling' is not that of a body");
   model.scaling = {.centre = {s[0], s[1], s[2]}, .half_side = s[3], .max_impulse = s[4]};
+  model.field_unit = take.reals("field_unit", 1)[0];
+  if (!(model.field_unit > 0)) throw InputError("array 'field_unit' must hold a positive number");
   const auto code = static_cast<std::size_t>(network.impulse_code);
   model.siren = {.omega = network.omega,
                  .weight = take.floats("siren.weight", code * kImpulseValues),
@@ -106,6 +108,7 @@ void write_model(const std::filesystem::path& path, const Model& model) {
                 {"provenance", model.provenance}};
   const Vec3& c = model.scaling.centre;
   file.reals["scaling"] = {c.x(), c.y(), c.z(), model.scaling.half_side, model.scaling.max_impulse};
+  file.reals["field_unit"] = {model.field_unit};
   for (const EpochRecord& epoch : model.epochs) {
     file.reals["epoch_loss"].push_back(epoch.loss);
     file.reals["epoch_seconds"].push_back(epoch.seconds);

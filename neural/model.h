@@ -26,6 +26,7 @@ struct Model {
   std::string shape;         ///< name of the target
   std::string shape_digest;  ///< of its mesh
   ImpulseScaling scaling;
+  double field_unit = 1;  ///< m: what 1 of its outputs stands for
   Siren siren;
   std::map<std::string, std::vector<float>> weights;  ///< by the names of weight_specs
   /// Statistics of batch normalisation, "block0.mean" and "block0.variance", where the network
@@ -42,7 +43,7 @@ struct Model {
 };
 
 /// One file (core/array_file.h): the texts `network` (JSON), `shape`, `shape_digest` and
-/// `provenance`, and the arrays `scaling`, `siren.weight`, `siren.bias`, `codebook`,
+/// `provenance`, and the arrays `scaling`, `field_unit`, `siren.weight`, `siren.bias`, `codebook`,
 /// `codebook_pattern`, `epoch_loss`, `epoch_seconds`, `statistics/...` and `weights/...`.
 void write_model(const std::filesystem::path& file, const Model& model);
 

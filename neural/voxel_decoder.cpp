@@ -46,7 +46,8 @@ std::pair<float, float> statistics_of(std::span<const float> values, double epsi
 
 }  // namespace
 
-VoxelDecoder::VoxelDecoder(const Model& model) : network_(model.network) {
+VoxelDecoder::VoxelDecoder(const Model& model)
+    : network_(model.network), field_unit_(static_cast<float>(model.field_unit)) {
   linear_weight_ = model.weights.at("linear.weight");
   linear_bias_ = model.weights.at("linear.bias");
   const bool stored =
@@ -133,7 +134,9 @@ VoxelGrid<float> VoxelDecoder::decode(std::span<const float> code, int resolutio
       heads_[static_cast<std::size_t>(found - network_.resolutions.begin())](volume, threads);
   parallel_for(static_cast<std::size_t>(resolution), threads, [&](std::size_t plane) {
     const std::size_t size = field.values.size() / static_cast<std::size_t>(resolution);
-    for (float& v : std::span(field.values).subspan(plane * size, size)) v = std::tanh(v);
+    for (float& v : std::span(field.values).subspan(plane * size, size)) {
+      v = field_unit_ * std::tanh(v);
+    }
   });
   return field;
 }

@@ -35,6 +35,7 @@ class VoxelDecoder {
   void normalise(std::vector<float>& volume, const Block& block, int threads) const;
 
   NetworkOptions network_;
+  float field_unit_ = 1;
   std::vector<float> linear_weight_, linear_bias_;
   std::vector<Block> blocks_;
   std::vector<TransposedConvolution> heads_;

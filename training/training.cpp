@@ -128,7 +128,7 @@ class Training {
           tensor_of(code, {static_cast<std::int64_t>(code.size())}).to(device_));
       std::map<int, torch::Tensor>& fields = fields_.emplace_back();
       for (const int r : options.network.resolutions) {
-        fields[r] = tensor_of(pattern.fields.at(r), {r, r, r}).to(device_);
+        fields[r] = tensor_of(pattern.fields.at(r), {r, r, r}).div_(data.field_unit).to(device_);
       }
     }
   }
@@ -320,6 +320,7 @@ class Training {
                 .shape = data_.shape,
                 .shape_digest = data_.shape_digest,
                 .scaling = data_.scaling,
+                .field_unit = data_.field_unit,
                 .siren = siren_,
                 .weights = {},
                 .statistics = {},
@@ -402,7 +403,7 @@ std::vector<double> pattern_losses(const Model& model, const DataSet& data, int 
       sum += squares / static_cast<double>(field.size());
       ++count;
     }
-    losses[pattern] = sum / count;
+    losses[pattern] = sum / count / (data.field_unit * data.field_unit);
   }
   return losses;
 }

@@ -49,6 +49,7 @@ neural::DataSet make_data_set(const Target& target, const LearningData& learning
                        .provenance = {},
                        .features = settings.network.features,
                        .scaling = impulse_scaling(target.mesh, learning.max_impulse),
+                       .field_unit = settings.truncation > 0 ? settings.truncation : 1,
                        .patterns = {}};
   std::map<int, VoxelGrid<float>> body;
   for (const int r : settings.network.resolutions) {

@@ -31,6 +31,7 @@ Model random_model(NetworkOptions network, const DataSet& data) {
               .shape = data.shape,
               .shape_digest = data.shape_digest,
               .scaling = data.scaling,
+              .field_unit = 0.5,
               .siren = make_siren(network, random),
               .weights = {},
               .statistics = {},
@@ -81,6 +82,9 @@ TEST_F(NeuralFiles, DataSetsWhoseNumbersDoNotFitAreRefused) {
   bad = good;
   bad.scaling.max_impulse = 0;
   refused(bad);
+  bad = good;
+  bad.field_unit = 0;
+  refused(bad);
 }
 
 TEST_F(NeuralFiles, ModelComesBackAsItWas) {
@@ -97,6 +101,7 @@ TEST_F(NeuralFiles, ModelComesBackAsItWas) {
     const Model again = read_model(file_);
     EXPECT_EQ(again.network, model.network);
     EXPECT_EQ(again.scaling, model.scaling);
+    EXPECT_EQ(again.field_unit, model.field_unit);
     EXPECT_EQ(again.siren, model.siren);
     EXPECT_EQ(again.weights, model.weights);
     EXPECT_EQ(again.statistics, model.statistics);

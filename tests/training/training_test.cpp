@@ -209,6 +209,21 @@ TEST(Training, StopsOnceTheLossIsStable) {
   EXPECT_GE(model.epochs[model.epochs.size() - 2].loss, 0.02);
 }
 
+TEST(Training, IsTheSameInAnyUnitOfTheFields) {
+  const DataSet metres = test::made_up_data(3, {32});
+  DataSet quarters = metres;  // a power of two: nothing is rounded
+  quarters.field_unit = 0.25;
+  for (neural::Pattern& pattern : quarters.patterns) {
+    for (float& value : pattern.fields[32]) value *= 0.25f;
+  }
+  const Model a = train(metres, small(2), {}), b = train(quarters, small(2), {});
+  EXPECT_TRUE(same(a, b));
+  auto small_field = neural::VoxelDecoder(b).decode(b.row(0), 32, 1).values;
+  for (float& value : small_field) value *= 4;
+  EXPECT_EQ(neural::VoxelDecoder(a).decode(a.row(0), 32, 1).values, small_field);
+  EXPECT_EQ(pattern_losses(a, metres, 1), pattern_losses(b, quarters, 1));
+}
+
 TEST(Training, FillsTheCodebookWithPairsOfTheTrainingSet) {
   const DataSet data = test::made_up_data(5, {32});
   TrainingOptions options = small(1);
