@@ -10,7 +10,9 @@
 #include "core/error.h"
 #include "harness/learning_set.h"
 #include "methods/deepfracture/patterns.h"
+#include "methods/deepfracture/round_trip.h"
 #include "methods/deepfracture/settings.h"
+#include "metrics/summary.h"
 #include "neural/data_set.h"
 
 namespace fracbench {
@@ -25,8 +27,15 @@ struct ExportArguments {
   int features = 1;
   double truncation = 0;
   bool test = false;
+  bool ceiling = false;
   int threads = 2;
   bool as_json = false;
+};
+
+/// How well the patterns come back from exact fields: adjusted Rand indices.
+struct Ceiling {
+  int resolution = 0;
+  std::vector<double> index;
 };
 
 /// The learning data of a folder: itself, or what lies in it beside results.
@@ -74,12 +83,24 @@ ExitCode export_learning(const ExportArguments& a, std::stop_token stop) {
       {"truncation",
        a.truncation}}.dump();
   neural::write_data_set(a.out, data);
+  std::vector<Ceiling> ceilings;
+  for (const int r : a.resolutions) {
+    if (a.ceiling)
+      ceilings.push_back({r, deepfracture::round_trip(learning, data, r, {}, context)});
+  }
   if (a.as_json) {
-    print_json({{"shape", set.label},
-                {"patterns", data.patterns.size()},
-                {"resolutions", a.resolutions},
-                {"file", a.out.string()}});
+    nlohmann::ordered_json json{{"shape", set.label},
+                                {"patterns", data.patterns.size()},
+                                {"resolutions", a.resolutions},
+                                {"file", a.out.string()}};
+    for (const Ceiling& c : ceilings) json["ceiling"][std::to_string(c.resolution)] = c.index;
+    print_json(json);
   } else {
+    for (const Ceiling& c : ceilings) {
+      const Summary s = summarize(c.index);
+      fmt::print("{}, r = {}: ceiling {:.3f} on average, {:.3f} at least, {:.3f} at most\n",
+                 set.label, c.resolution, s.mean, s.minimum, s.maximum);
+    }
     fmt::print("{} fractures of {} in {}; train with fracbench-train train {} --out MODEL\n",
                data.patterns.size(), set.label, a.out.string(), a.out.string());
   }
@@ -107,6 +128,9 @@ void add_export_learning_command(CLI::App& app, Action& chosen) {
   command->add_option("--truncation", a->truncation, "Limit of the fields, m; 0: none")
       ->capture_default_str();
   command->add_flag("--test", a->test, "The collisions that are kept for tests");
+  command->add_flag("--ceiling", a->ceiling,
+                    "Also say how well exact fields come back through segmentation (adjusted Rand "
+                    "index): what no prediction can exceed");
   command->add_option("--threads", a->threads)->capture_default_str();
   command->add_flag("--json", a->as_json, "Print what was written as JSON");
   command->callback(

@@ -160,6 +160,30 @@ TEST(ValidityItem, shows_the_worst_case_of_cells_that_are_invalid_too) {
   EXPECT_EQ(number(at(validity, 1, "worst volume error")), 0);
 }
 
+TEST(LabelAgreementItem, PoolsByShapeAndMethodAndTellsTheFloorApart) {
+  ReportInput input;
+  EXPECT_TRUE(section(input, "label_agreement").tables.empty());
+  for (const double index : {0.2, 0.4}) {
+    input.agreements.push_back({.shape = "pot",
+                                .label = "cvd",
+                                .family = "single",
+                                .scenario = "single-0000",
+                                .index = index});
+  }
+  input.agreements.push_back({.shape = "pot",
+                              .label = "bem",
+                              .family = "single",
+                              .scenario = "single-0000",
+                              .other_impact = true,
+                              .index = 0.1});
+  const Table shown = table(section(input, "label_agreement"), "label_agreement");
+  ASSERT_EQ(shown.rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(number(at(shown, 0, "mean")), 0.3);
+  EXPECT_DOUBLE_EQ(number(at(shown, 0, "standard error")), 0.1);
+  EXPECT_EQ(std::get<std::string>(at(shown, 1, "method")), "bem, another impact");
+  EXPECT_EQ(number(at(shown, 1, "standard error")), 0);
+}
+
 TEST(StageTimesItem, adds_up_and_stands_beside_what_was_published) {
   ReportInput input = two_methods(3, false);
   for (CellSummary& cell : input.cells) {

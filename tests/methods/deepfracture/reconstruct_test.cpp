@@ -10,6 +10,9 @@
 #include "geometry/measures.h"
 #include "geometry/remesh.h"
 #include "geometry/signed_distance_grid.h"
+#include "methods/deepfracture/patterns.h"
+#include "methods/deepfracture/round_trip.h"
+#include "methods/deepfracture/settings.h"
 #include "tests/methods/learned_boxes.h"
 
 namespace fracbench::deepfracture {
@@ -95,6 +98,21 @@ TEST_F(ReconstructTest, AFieldWithoutInsideIsAFailureOfTheMethod) {
   EXPECT_THROW(reconstruct(body.mesh, unit_grid<float>(16, -1.0f), {}, context.get()),
                MethodFailure);
   EXPECT_THROW(reconstruct(body.mesh, unit_grid<float>(16, NAN), {}, context.get()), MethodFailure);
+}
+
+TEST_F(ReconstructTest, TheLabelsOfExactFieldsAgreeWithTheirFragmentsAndNoOthers) {
+  LearningData learning = learned_boxes::learning_data(3);
+  Settings settings;
+  settings.network.resolutions = {32, 64};
+  const neural::DataSet data = make_data_set(body, learning, settings, context.get());
+  for (const int r : {32, 64}) {
+    for (const double index : round_trip(learning, data, r, {}, context.get())) {
+      EXPECT_GT(index, 0.85) << r;  // cuts that lie one layer of voxels off
+      EXPECT_LE(index, 1) << r;
+    }
+  }
+  std::swap(learning.examples[0], learning.examples[2]);
+  EXPECT_LT(round_trip(learning, data, 64, {}, context.get())[0], 0.5);
 }
 
 }  // namespace
