@@ -164,7 +164,8 @@ CrackOutlines crack_outlines(const SurfaceTopology& body, const VoronoiCells& ce
     result.inner_vertices.push_back(static_cast<std::int32_t>(v));
   }
   for (std::size_t e = 0; e < cells.edges.size(); ++e) {
-    const auto& [i, j, k] = cells.edges[e].sites;
+    const auto& sites = cells.edges[e].sites;
+    const std::int32_t i = sites[0], j = sites[1], k = sites[2];
     // The edge runs counter-clockwise around the face (i, j) seen from j; a swap of two sites
     // turns it.
     inner.for_each_part(

@@ -127,7 +127,7 @@ std::vector<std::int32_t> common_pieces(const TetMesh& tets,
                                         std::span<const std::vector<std::int32_t>> pieces_by_mode) {
   Joined sets(std::ssize(tets.tets));
   for (const auto& face : tets.interior_faces) {
-    const auto [a, b] = face.tets;
+    const std::int32_t a = face.tets[0], b = face.tets[1];
     if (std::ranges::all_of(pieces_by_mode,
                             [&](const auto& pieces) { return pieces[a] == pieces[b]; })) {
       sets.join(a, b);

@@ -2,7 +2,6 @@
 // input is a file without it, so that what is made of the arrays is reached, too.
 
 #include "core/array_file.h"
-#include "core/digest.h"
 #include "core/error.h"
 #include "methods/modes/model.h"
 #include "scratch_file.h"
@@ -17,12 +16,6 @@ fracbench::Target tetrahedron() {
           .material = {}};
 }
 
-std::string digest_of(const auto& value) {
-  fracbench::Digest digest;
-  digest.add(value);
-  return digest.hex();
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -31,10 +24,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const Target target = tetrahedron();
   const std::string_view text = fuzz::text_of(data, size);
   try {
-    const auto file =
-        fuzz::scratch().write("model.fracbench", std::string(text) + digest_of(text));
+    const auto file = fuzz::scratch().write("model.fracbench", fuzz::with_digest(text));
     ArrayFile arrays = read_array_file(file, kind);
-    arrays.texts["body"] = digest_of(target.mesh);
+    arrays.texts["body"] = fuzz::digest_of(target.mesh);
     arrays.texts["settings"] = "";
     write_array_file(file, arrays, kind);
     modes::load_model(file.parent_path(), target, "");

@@ -9,11 +9,24 @@
 #include <string>
 #include <string_view>
 
+#include "core/digest.h"
+
 namespace fracbench::fuzz {
 
 /// The input as text.
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
+}
+
+/// The digest with which array files end.
+inline std::string digest_of(const auto& value) {
+  Digest digest;
+  digest.add(value);
+  return digest.hex();
+}
+
+inline std::string with_digest(std::string_view text) {
+  return std::string(text) + digest_of(text);
 }
 
 /// A folder of this process in memory where there is one, removed when the process ends, for
@@ -38,8 +51,8 @@ class ScratchFolder {
   /// Puts the input into a file of that name.
   std::filesystem::path write(std::string_view name, std::string_view bytes) const {
     const std::filesystem::path file = folder_ / name;
-    std::ofstream(file, std::ios::binary).write(bytes.data(),
-                                                static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(file, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return file;
   }
 
