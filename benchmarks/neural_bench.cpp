@@ -52,7 +52,7 @@ void Predict(benchmark::State& state) {
   const std::vector<float> code(static_cast<std::size_t>(model.network.code_size()), 0.3f);
   reset_peak_memory();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(decoder.decode(code, r, threads).values.data());
+    benchmark::DoNotOptimize(decoder.decode({code, {}}, r, threads).values.data());
   }
   state.counters["Gflop/s"] = benchmark::Counter(decoder.operations(r) / kGiga,
                                                  benchmark::Counter::kIsIterationInvariantRate);

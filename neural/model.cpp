@@ -75,7 +75,8 @@ Model model_of(ArrayFile& file) {
   for (const WeightSpec& spec : weight_specs(network)) {
     model.weights[spec.name] = take.floats(std::string(kWeights) + spec.name, spec.size());
   }
-  if (network.normalisation == Normalisation::batch && network.statistics != Statistics::sample) {
+  if (network.decoder == Decoder::voxel && network.normalisation == Normalisation::batch &&
+      network.statistics != Statistics::sample) {
     for (const DecoderLayer& layer : decoder_blocks(network)) {
       for (const char* what : {".mean", ".variance"}) {
         model.statistics[layer.name + what] = take.floats(

@@ -17,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array kNormalisations = {Normalisation::batch, Normalisation::group};
+constexpr std::array kDecoders = {Decoder::voxel, Decoder::implicit, Decoder::pix2pix};
 constexpr std::array kStatistics = {Statistics::sample, Statistics::running,
                                     Statistics::reestimated};
 
@@ -42,9 +43,57 @@ void add_convolution(const std::string& name, int from, int to, std::vector<Weig
   list.push_back({name + ".weight", {from, to, 4, 4, 4}});
 }
 
+std::vector<WeightSpec> implicit_specs(const NetworkOptions& options) {
+  const int hidden = hidden_values(options), input = options.code_size() + 3;
+  std::vector<WeightSpec> list;
+  for (int k = 0; k <= kHiddenLayers; ++k) {
+    const int from = k == 0 ? input : k == kSkipLayer ? hidden + input : hidden;
+    const int to = k == kHiddenLayers ? 1 : hidden;
+    list.push_back({fmt::format("layer{}.weight", k), {to, from}});
+    list.push_back({fmt::format("layer{}.bias", k), {to}});
+  }
+  return list;
+}
+
+std::vector<WeightSpec> unet_specs(const NetworkOptions& options) {
+  const std::vector<int> channels = unet_channels(options);
+  const auto depth = static_cast<int>(channels.size());
+  std::vector<WeightSpec> list;
+  for (int k = 0; k < depth; ++k) {
+    const std::string name = fmt::format("down{}", k);
+    list.push_back({name + ".weight", {channels[k], k == 0 ? 1 : channels[k - 1], 4, 4, 4}});
+    list.push_back({name + ".bias", {channels[k]}});
+    if (k > 0) add_normalisation(name, channels[k], list);
+  }
+  for (int k = depth - 1; k >= 0; --k) {
+    const std::string name = fmt::format("up{}", k);
+    const int from = k == depth - 1 ? channels[k] : 2 * channels[k];
+    const int to = k == 0 ? 1 : channels[k - 1];
+    add_convolution(name, from, to, list);
+    if (k == 0) continue;
+    list.push_back({name + ".bias", {to}});
+    add_normalisation(name, to, list);
+  }
+  return list;
+}
+
 }  // namespace
 
+int hidden_values(const NetworkOptions& options) { return channels(512, options); }
+
+std::vector<int> unet_channels(const NetworkOptions& options) {
+  std::vector<int> list;
+  int paper = 64;
+  for (int side = options.resolutions.back() / 2; side >= 4; side /= 2) {
+    list.push_back(channels(paper, options));
+    paper = std::min(2 * paper, 512);
+  }
+  return list;
+}
+
 std::vector<WeightSpec> weight_specs(const NetworkOptions& options) {
+  if (options.decoder == Decoder::implicit) return implicit_specs(options);
+  if (options.decoder == Decoder::pix2pix) return unet_specs(options);
   const int base = base_channels(options) * kBaseSide * kBaseSide * kBaseSide;
   std::vector<WeightSpec> list = {{"linear.weight", {base, options.code_size()}},
                                   {"linear.bias", {base}}};
@@ -118,12 +167,26 @@ void check(const NetworkOptions& options) {
           fmt::format("omega is {}, must be in (0, 1000]", options.omega));
   require(options.slope >= 0 && options.slope < 1,
           fmt::format("slope is {}, must be in [0, 1)", options.slope));
+  require(options.decoder != Decoder::pix2pix || options.resolutions.size() == 1,
+          "a pix2pix decoder has one resolution only");
   require(options.epsilon > 0 && options.epsilon <= 10,
           fmt::format("epsilon is {}, must be in (0, 10]", options.epsilon));
 }
 
 std::string_view to_string(Normalisation value) {
   return value == Normalisation::batch ? "batch" : "group";
+}
+
+std::string_view to_string(Decoder value) {
+  switch (value) {
+    case Decoder::voxel:
+      return "voxel";
+    case Decoder::implicit:
+      return "implicit";
+    case Decoder::pix2pix:
+      return "pix2pix";
+  }
+  return "";
 }
 
 std::string_view to_string(Statistics value) {
@@ -148,6 +211,7 @@ Json to_json(const NetworkOptions& o) {
           {"slope", o.slope},
           {"normalisation", to_string(o.normalisation)},
           {"statistics", to_string(o.statistics)},
+          {"decoder", to_string(o.decoder)},
           {"epsilon", o.epsilon}};
 }
 
@@ -163,6 +227,7 @@ NetworkOptions network_options_from_json(const Json& json) {
     o.slope = json.at("slope");
     o.normalisation = parse(json.at("normalisation"), kNormalisations, "normalisation");
     o.statistics = parse(json.at("statistics"), kStatistics, "statistics");
+    o.decoder = parse(json.at("decoder"), kDecoders, "decoder");
     o.epsilon = json.at("epsilon");
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("network: {}", error.what()));

@@ -20,6 +20,13 @@ enum class Statistics {
   reestimated,  ///< the mean over all training patterns with the final weights
 };
 
+/// What makes a field of a code.
+enum class Decoder {
+  voxel,     ///< the paper's code-to-voxel decoder
+  implicit,  ///< a perceptron of code and place, as DeepSDF: supplement, section 6
+  pix2pix,   ///< a 3D U-Net from a volume that holds the impulse, no code: supplement, section 9
+};
+
 /// What a network is, without its weights. Everything of section 6.2 of the paper that has a value
 /// is a parameter; defaults are the paper's.
 struct NetworkOptions {
@@ -32,6 +39,7 @@ struct NetworkOptions {
   double slope = 0.2;                    ///< of the leaky ReLU
   Normalisation normalisation = Normalisation::batch;
   Statistics statistics = Statistics::sample;
+  Decoder decoder = Decoder::voxel;
   double epsilon = 1e-5;  ///< added to variances; the authors' program has 0.8
 
   int code_size() const { return features * impulse_code + segment_code; }
@@ -61,6 +69,16 @@ std::vector<DecoderLayer> decoder_blocks(const NetworkOptions& options);
 /// For each resolution the layer that makes its output, of the features of half that side.
 std::vector<DecoderLayer> decoder_heads(const NetworkOptions& options);
 
+/// Values of each hidden layer of the implicit decoder (512 at width 1), and how many layers.
+int hidden_values(const NetworkOptions& options);
+inline constexpr int kHiddenLayers = 8;
+/// The hidden layer that is given the input anew, as DeepSDF has it.
+inline constexpr int kSkipLayer = 4;
+
+/// Channels of the U-Net from the volume's first halving on, down to 4^3 voxels: 64, 128, 256, 512,
+/// 512 at width 1, as many as the finest resolution needs.
+std::vector<int> unet_channels(const NetworkOptions& options);
+
 struct WeightSpec {
   std::string name;
   std::vector<int> shape;
@@ -79,6 +97,7 @@ void check(const NetworkOptions& options);
 
 std::string_view to_string(Normalisation value);
 std::string_view to_string(Statistics value);
+std::string_view to_string(Decoder value);
 
 nlohmann::ordered_json to_json(const NetworkOptions& options);
 /// Throws InputError.

@@ -2,49 +2,15 @@
 
 #include <cblas.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "neural/normalise.h"
 
 namespace fracbench::neural {
-
-namespace {
-
-constexpr std::size_t kGroups = 8;
-
-void leaky_relu(std::span<float> values, float slope) {
-  for (float& v : values) v = v > 0 ? v : slope * v;
-}
-
-/// Mean and one over the deviation of all values.
-std::pair<float, float> statistics_of(std::span<const float> values, double epsilon) {
-  const double count = static_cast<double>(values.size());
-  // Row by row in single precision, which the compiler makes vectors of, rows in double.
-  constexpr std::size_t kRow = 256;
-  const auto sum_of = [&](auto term) {
-    double sum = 0;
-    for (std::size_t k = 0; k < values.size(); k += kRow) {
-      float parts[8] = {};
-      const std::size_t end = std::min(k + kRow, values.size());
-      std::size_t at = k;
-      for (; at + 8 <= end; at += 8) {
-        for (std::size_t p = 0; p < 8; ++p) parts[p] += term(values[at + p]);
-      }
-      for (; at < end; ++at) parts[0] += term(values[at]);
-      for (const float part : parts) sum += part;
-    }
-    return sum;
-  };
-  const auto mean = static_cast<float>(sum_of([](float v) { return v; }) / count);
-  const double variance = sum_of([mean](float v) { return (v - mean) * (v - mean); }) / count;
-  return {mean, static_cast<float>(1 / std::sqrt(variance + epsilon))};
-}
-
-}  // namespace
 
 VoxelDecoder::VoxelDecoder(const Model& model)
     : network_(model.network), field_unit_(static_cast<float>(model.field_unit)) {
@@ -83,43 +49,24 @@ VoxelDecoder::VoxelDecoder(const Model& model)
   }
 }
 
-void VoxelDecoder::normalise(std::vector<float>& volume, const Block& block, int threads) const {
-  const auto slope = static_cast<float>(network_.slope);
+void VoxelDecoder::finish(std::vector<float>& volume, const Block& block, int threads) const {
   if (block.scale.empty()) {
-    leaky_relu(volume, slope);
-    return;
+    leaky_relu(volume, static_cast<float>(network_.slope));
+  } else {
+    normalise(volume, {block.scale, block.shift}, network_, threads);
   }
-  const std::size_t channels = block.scale.size();
-  const std::size_t voxels = volume.size() / channels;
-  const std::size_t groups = network_.normalisation == Normalisation::group ? kGroups : channels;
-  const std::size_t each = channels / groups;
-  parallel_for(groups, threads, [&](std::size_t g) {
-    const std::span values = std::span(volume).subspan(g * each * voxels, each * voxels);
-    const auto [mean, inverse] = statistics_of(values, network_.epsilon);
-    for (std::size_t c = 0; c < each; ++c) {
-      const float scale = block.scale[g * each + c] * inverse;
-      const float shift = block.shift[g * each + c] - mean * scale;
-      for (float& v : values.subspan(c * voxels, voxels)) {
-        const float w = v * scale + shift;
-        v = w > 0 ? w : slope * w;
-      }
-    }
-  });
 }
 
-VoxelGrid<float> VoxelDecoder::decode(std::span<const float> code, int resolution,
+VoxelGrid<float> VoxelDecoder::decode(const FieldSource& source, int resolution,
                                       int threads) const {
-  const auto found = std::ranges::find(network_.resolutions, resolution);
-  if (found == network_.resolutions.end()) {
-    throw InputError(fmt::format("the model has no output of resolution {}, only of {}", resolution,
-                                 fmt::join(network_.resolutions, ", ")));
-  }
+  require_resolution(network_, resolution);
+  const std::span<const float> code = source.code;
   if (code.size() != static_cast<std::size_t>(network_.code_size())) {
     throw InputError(
         fmt::format("a code has {} values, must have {}", code.size(), network_.code_size()));
   }
   openblas_set_num_threads(threads);
-  std::vector<float> volume = linear_bias_;
+  std::vector<float> volume(linear_bias_.begin(), linear_bias_.end());
   cblas_sgemv(CblasRowMajor, CblasNoTrans, static_cast<int>(volume.size()),
               static_cast<int>(code.size()), 1.0f, linear_weight_.data(),
               static_cast<int>(code.size()), code.data(), 1, 1.0f, volume.data(), 1);
@@ -127,11 +74,12 @@ VoxelGrid<float> VoxelDecoder::decode(std::span<const float> code, int resolutio
   const auto layers = decoder_blocks(network_);
   for (std::size_t k = 0; k < layers.size() && 4 * layers[k].side <= resolution; ++k) {
     volume = blocks_[k].convolution(volume, threads);
-    normalise(volume, blocks_[k], threads);
+    finish(volume, blocks_[k], threads);
   }
   VoxelGrid<float> field = unit_grid<float>(resolution);
   field.values =
-      heads_[static_cast<std::size_t>(found - network_.resolutions.begin())](volume, threads);
+      heads_[static_cast<std::size_t>(std::ranges::find(network_.resolutions, resolution) -
+                                      network_.resolutions.begin())](volume, threads);
   parallel_for(static_cast<std::size_t>(resolution), threads, [&](std::size_t plane) {
     const std::size_t size = field.values.size() / static_cast<std::size_t>(resolution);
     for (float& v : std::span(field.values).subspan(plane * size, size)) {

@@ -8,16 +8,18 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "core/digest.h"
 #include "core/error.h"
 #include "core/peak_memory.h"
-#include "neural/voxel_decoder.h"
+#include "neural/field_decoder.h"
+#include "neural/pix2pix_decoder.h"
 #include "training/adam.h"
 #include "training/checkpoint.h"
-#include "training/voxel_network.h"
+#include "training/network.h"
 
 namespace fracbench::training {
 
@@ -29,7 +31,6 @@ using neural::EpochRecord;
 using neural::Model;
 using neural::Pattern;
 
-constexpr double kEikonalWeight = 0.1;
 constexpr std::string_view kCodes = "segment_codes";
 // Epochs whose time tells how long the rest will take.
 constexpr std::size_t kTimedEpochs = 10;
@@ -78,36 +79,6 @@ std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed, std::si
   return order;
 }
 
-torch::Tensor gradient_along(const torch::Tensor& field, int axis) {
-  const auto n = field.size(axis);
-  const double spacing = 2.0 / static_cast<double>(n);
-  return (field.slice(axis, 1) - field.slice(axis, 0, n - 1)) / spacing;
-}
-
-torch::Tensor loss_of(const torch::Tensor& field, const torch::Tensor& target, Loss loss) {
-  if (loss == Loss::dice) {
-    const double edge = 2.0 / static_cast<double>(field.size(0));
-    const torch::Tensor inside = torch::sigmoid(field / edge),
-                        wanted = target.gt(0).to(torch::kF32);
-    return 1 - 2 * (inside * wanted).sum() / (inside.sum() + wanted.sum());
-  }
-  torch::Tensor value = torch::mse_loss(field, target);
-  if (loss == Loss::eikonal) {
-    const auto n = field.size(0) - 1;
-    const auto inner = [&](int axis) {
-      torch::Tensor g = gradient_along(field, axis);
-      for (int other = 0; other < 3; ++other) {
-        if (other != axis) g = g.slice(other, 0, n);
-      }
-      return g;
-    };
-    const torch::Tensor norm =
-        (inner(0).square() + inner(1).square() + inner(2).square() + 1e-12).sqrt();
-    value = value + kEikonalWeight * (norm - 1).square().mean();
-  }
-  return value;
-}
-
 /// Everything that changes while a network is trained.
 class Training {
  public:
@@ -118,7 +89,7 @@ class Training {
         device_(device_of(run.device)),
         random_(options.seed),
         siren_(make_encoder(options)),
-        network_(make_network(options, device_)),
+        network_(initial_network(options, device_)),
         codes_(make_codes()),
         adam_(trained()) {
     id_ = digest();
@@ -126,9 +97,16 @@ class Training {
       const std::vector<float> code = neural::encode(siren_, pattern.impulses);
       impulse_codes_.push_back(
           tensor_of(code, {static_cast<std::int64_t>(code.size())}).to(device_));
-      std::map<int, torch::Tensor>& fields = fields_.emplace_back();
+      Sample& sample = samples_.emplace_back();
       for (const int r : options.network.resolutions) {
-        fields[r] = tensor_of(pattern.fields.at(r), {r, r, r}).div_(data.field_unit).to(device_);
+        sample.fields[r] =
+            tensor_of(pattern.fields.at(r), {r, r, r}).div_(data.field_unit).to(device_);
+      }
+      if (options.network.decoder == neural::Decoder::pix2pix) {
+        const int r = options.network.resolutions.back();
+        sample.volume =
+            tensor_of(neural::impulse_volume(pattern.impulses, data.scaling, r), {r, r, r})
+                .to(device_);
       }
     }
   }
@@ -153,9 +131,10 @@ class Training {
     Random random = Random(options.seed).fork("encoder");
     return neural::make_siren(options.network, random);
   }
-  static VoxelNetwork make_network(const TrainingOptions& options, torch::Device device) {
+  static std::unique_ptr<Network> initial_network(const TrainingOptions& options,
+                                                  torch::Device device) {
     Random random = Random(options.seed).fork("weights");
-    return {options.network, random, device};
+    return make_network(options.network, random, device);
   }
   torch::Tensor make_codes() {
     Random random = random_.fork("segment codes");
@@ -170,7 +149,7 @@ class Training {
         .requires_grad_(options_.segment_codes == SegmentCodes::trained);
   }
   std::map<std::string, torch::Tensor> trained() {
-    std::map<std::string, torch::Tensor> list = network_.weights();
+    std::map<std::string, torch::Tensor> list = network_->weights();
     if (options_.segment_codes == SegmentCodes::trained) list[std::string(kCodes)] = codes_;
     return list;
   }
@@ -221,12 +200,8 @@ class Training {
     double sum = 0;
     for (const std::size_t k : shuffled(data_.patterns.size(), options_.seed, epoch)) {
       if (run_.stop.stop_requested()) throw Cancelled();
-      torch::Tensor loss = torch::zeros({}, device_);
-      const auto decoded = network_.decode(code_of(k, random), /*training=*/true);
-      for (const auto& [r, field] : decoded) {
-        loss = loss + loss_of(field, fields_[k][r], options_.loss);
-      }
-      loss = loss / static_cast<double>(decoded.size());
+      samples_[k].code = code_of(k, random);
+      torch::Tensor loss = network_->loss(samples_[k], options_.loss, rate, random);
       const double value = loss.item<double>();
       if (!std::isfinite(value)) {
         throw TrainingFailure(fmt::format(
@@ -246,10 +221,11 @@ class Training {
   /// All tensors that change, by their name in a check point.
   std::map<std::string, torch::Tensor> tensors() {
     std::map<std::string, torch::Tensor> list;
-    for (auto& [name, tensor] : network_.weights()) list["weights/" + name] = tensor;
-    for (auto& [name, tensor] : network_.statistics()) list["statistics/" + name] = tensor;
+    for (auto& [name, tensor] : network_->weights()) list["weights/" + name] = tensor;
+    for (auto& [name, tensor] : network_->statistics()) list["statistics/" + name] = tensor;
     for (auto& [name, tensor] : adam_.first) list["first/" + name] = tensor;
     for (auto& [name, tensor] : adam_.second) list["second/" + name] = tensor;
+    for (auto& [name, tensor] : network_->further()) list["further/" + name] = tensor;
     list[std::string(kCodes)] = codes_;
     return list;
   }
@@ -281,16 +257,13 @@ class Training {
   /// Replaces the statistics by their mean over all patterns.
   void reestimate() {
     const torch::NoGradGuard none;
-    for (auto& [name, tensor] : network_.statistics()) tensor.zero_();
-    network_.sum_statistics = true;
+    network_->begin_statistics();
     Random random = random_.fork("reestimate");
-    for (std::size_t k = 0; k < data_.patterns.size(); ++k) {
-      network_.decode(code_of(k, random), /*training=*/true);
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      samples_[k].code = code_of(k, random);
+      network_->add_statistics(samples_[k]);
     }
-    network_.sum_statistics = false;
-    for (auto& [name, tensor] : network_.statistics()) {
-      tensor /= static_cast<double>(data_.patterns.size());
-    }
+    network_->end_statistics(samples_.size());
   }
 
   /// Equation (7): pairs of impulse code and segment code, sampled without replacement.
@@ -328,10 +301,11 @@ class Training {
                 .codebook_pattern = {},
                 .epochs = epochs_,
                 .provenance = provenance().dump()};
-    for (const auto& [name, tensor] : network_.weights()) model.weights[name] = values_of(tensor);
-    if (options_.network.normalisation == neural::Normalisation::batch &&
+    for (const auto& [name, tensor] : network_->weights()) model.weights[name] = values_of(tensor);
+    if (options_.network.decoder == neural::Decoder::voxel &&
+        options_.network.normalisation == neural::Normalisation::batch &&
         options_.network.statistics != neural::Statistics::sample) {
-      for (const auto& [name, tensor] : network_.statistics()) {
+      for (const auto& [name, tensor] : network_->statistics()) {
         model.statistics[name] = values_of(tensor);
       }
     }
@@ -362,12 +336,12 @@ class Training {
   torch::Device device_;
   Random random_;
   neural::Siren siren_;
-  VoxelNetwork network_;
+  std::unique_ptr<Network> network_;
   torch::Tensor codes_;
   Adam adam_;
   std::string id_;
   std::vector<torch::Tensor> impulse_codes_;
-  std::vector<std::map<int, torch::Tensor>> fields_;
+  std::vector<Sample> samples_;
   std::vector<EpochRecord> epochs_;
 };
 
@@ -387,14 +361,15 @@ Model train(const DataSet& data, const TrainingOptions& options, const TrainingR
 }
 
 std::vector<double> pattern_losses(const Model& model, const DataSet& data, int threads) {
-  const neural::VoxelDecoder decoder(model);
+  const auto decoder = neural::make_decoder(model);
   std::vector<double> losses(data.patterns.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t row = 0; row < model.rows(); ++row) {
     const auto pattern = static_cast<std::size_t>(model.codebook_pattern[row]);
     if (pattern >= data.patterns.size()) continue;
     double sum = 0, count = 0;
     for (const int r : model.network.resolutions) {
-      const auto field = decoder.decode(model.row(row), r, threads).values;
+      const auto field =
+          decoder->decode({model.row(row), data.patterns[pattern].impulses}, r, threads).values;
       const std::vector<float>& wanted = data.patterns[pattern].fields.at(r);
       double squares = 0;
       for (std::size_t k = 0; k < field.size(); ++k) {

@@ -2,8 +2,6 @@
 
 #include <torch/torch.h>
 
-#include <cmath>
-
 namespace fracbench::training {
 
 namespace {
@@ -12,66 +10,14 @@ constexpr int kGroups = 8;
 // Of running statistics: libtorch's default.
 constexpr double kMomentum = 0.1;
 
-/// Transposed convolution of kernel 4, stride 2, padding 1, as one convolution of kernel 2 with
-/// eight times the outputs, one for each parity, whose voxels are then put in their places (see
-/// neural/transposed_convolution.h). libtorch does its own transposed convolutions several times
-/// slower on a processor.
-torch::Tensor transposed_convolution(const torch::Tensor& input, const torch::Tensor& weight) {
-  const auto in = weight.size(0), out = weight.size(1);
-  const auto side = input.size(2);
-  // Tap 3 - p - 2 a takes input a of a window to the output of parity p: along each axis the kernel
-  // read backwards, as [a][1 - ...]: (3, 2, 1, 0) = (a = 0: p = 0, p = 1; a = 1: p = 0, p = 1).
-  const torch::Tensor windows =
-      weight.flip({2, 3, 4})
-          .reshape({in, out, 2, 2, 2, 2, 2, 2})  // in, out, az, pz, ay, py, ax, px
-          .permute({1, 3, 5, 7, 0, 2, 4, 6})     // out, pz, py, px, in, az, ay, ax
-          .reshape({8 * out, in, 2, 2, 2});
-  const torch::Tensor values = torch::conv3d(input, windows, {}, 1, 1);
-  const auto n = side + 1;
-  // Window j gives output 2 j - p: two of them for each j, of which the first and the last lie
-  // outside. As 2 (j + 1) - p - 1 they are in order with p reversed.
-  return values.reshape({out, 2, 2, 2, n, n, n})
-      .flip({1, 2, 3})
-      .permute({0, 4, 1, 5, 2, 6, 3})
-      .reshape({1, out, 2 * n, 2 * n, 2 * n})
-      .slice(2, 1, 2 * n - 1)
-      .slice(3, 1, 2 * n - 1)
-      .slice(4, 1, 2 * n - 1);
-}
-
-torch::Tensor per_channel(const torch::Tensor& values) { return values.reshape({1, -1, 1, 1, 1}); }
-
 }  // namespace
-
-torch::Tensor tensor_of(const std::vector<float>& values, torch::IntArrayRef shape) {
-  return torch::tensor(values, torch::kFloat32).reshape(shape);
-}
-
-std::vector<float> values_of(const torch::Tensor& tensor) {
-  const torch::Tensor plain = tensor.detach().to(torch::kCPU).contiguous();
-  const float* from = plain.data_ptr<float>();
-  return {from, from + plain.numel()};
-}
 
 VoxelNetwork::VoxelNetwork(const neural::NetworkOptions& options, Random& random,
                            torch::Device device)
     : options_(options),
       blocks_(neural::decoder_blocks(options)),
       heads_(neural::decoder_heads(options)) {
-  double bound = 0;  // of the layer at hand: a bias comes after its weight
-  for (const neural::WeightSpec& spec : neural::weight_specs(options)) {
-    std::vector<float> values(spec.size());
-    if (spec.name.ends_with(".scale")) {
-      std::fill(values.begin(), values.end(), 1.0f);
-    } else if (!spec.name.ends_with(".shift")) {
-      if (spec.shape.size() > 1) {
-        bound = 1 / std::sqrt(static_cast<double>(spec.size()) / spec.shape[0]);
-      }
-      for (float& value : values) value = static_cast<float>(random.uniform(-bound, bound));
-    }
-    const std::vector<std::int64_t> shape(spec.shape.begin(), spec.shape.end());
-    weights_[spec.name] = tensor_of(values, shape).to(device).requires_grad_();
-  }
+  weights_ = initial_weights(neural::weight_specs(options), random, device);
   for (const neural::DecoderLayer& layer : blocks_) {
     statistics_[layer.name + ".mean"] = torch::zeros({layer.out}, device);
     statistics_[layer.name + ".variance"] = torch::ones({layer.out}, device);
@@ -87,7 +33,7 @@ torch::Tensor VoxelNetwork::normalise(const torch::Tensor& volume,
   }
   torch::Tensor& mean = statistics_[layer.name + ".mean"];
   torch::Tensor& variance = statistics_[layer.name + ".variance"];
-  if (sum_statistics) {
+  if (sum_statistics_) {
     const torch::NoGradGuard none;
     mean += volume.mean({0, 2, 3, 4});
     variance += volume.var({0, 2, 3, 4}, /*unbiased=*/false);
@@ -97,6 +43,31 @@ torch::Tensor VoxelNetwork::normalise(const torch::Tensor& volume,
   return torch::batch_norm(volume, scale, shift, of_sample && !note ? torch::Tensor() : mean,
                            of_sample && !note ? torch::Tensor() : variance, of_sample, kMomentum,
                            options_.epsilon, /*cudnn_enabled=*/true);
+}
+
+torch::Tensor VoxelNetwork::loss(const Sample& sample, Loss kind, double, Random&) {
+  const auto decoded = decode(sample.code, /*training=*/true);
+  torch::Tensor sum;
+  for (const auto& [r, field] : decoded) {
+    const torch::Tensor value = field_loss(field, sample.fields.at(r), kind);
+    sum = sum.defined() ? sum + value : value;
+  }
+  return sum / static_cast<double>(decoded.size());
+}
+
+void VoxelNetwork::begin_statistics() {
+  for (auto& [name, tensor] : statistics_) tensor.zero_();
+  sum_statistics_ = true;
+}
+
+void VoxelNetwork::add_statistics(const Sample& sample) {
+  const torch::NoGradGuard none;
+  decode(sample.code, /*training=*/true);
+}
+
+void VoxelNetwork::end_statistics(std::size_t samples) {
+  sum_statistics_ = false;
+  for (auto& [name, tensor] : statistics_) tensor /= static_cast<double>(samples);
 }
 
 std::map<int, torch::Tensor> VoxelNetwork::decode(const torch::Tensor& code, bool training) {

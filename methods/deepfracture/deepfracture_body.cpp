@@ -45,7 +45,7 @@ DeepFractureBody::DeepFractureBody(const Target& target, Settings settings, neur
       settings_(std::move(settings)),
       model_((check_model(model, target, settings_), std::move(model))),
       agreement_(std::move(agreement)),
-      decoder_(model_) {}
+      decoder_(neural::make_decoder(model_)) {}
 
 /// Says how often another random code would have chosen another row: the ablation of the random
 /// codes. Takes nothing from the random numbers that the prediction is made with.
@@ -63,7 +63,9 @@ VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& contex
   const std::vector<float> impulses =
       impulse_vector(impact, model_.scaling, model_.network.features);
   std::vector<float> code;
-  if (settings_.quantise) {
+  if (model_.network.decoder == neural::Decoder::pix2pix) {
+    // Goes by the impulses alone.
+  } else if (settings_.quantise) {
     const std::size_t row = neural::nearest_row(model_, impulses, context.random);
     context.note(fmt::format("deepfracture: row {} of {} of the codebook, training pattern {}",
                              row + 1, model_.rows(), model_.codebook_pattern[row] + 1));
@@ -74,7 +76,7 @@ VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& contex
     const auto segment = neural::random_segment_code(model_.network.segment_code, context.random);
     code.insert(code.end(), segment.begin(), segment.end());
   }
-  return decoder_.decode(code, settings_.resolution, context.threads);
+  return decoder_->decode({code, impulses}, settings_.resolution, context.threads);
 }
 
 std::vector<Piece> DeepFractureBody::fracture(const Impact& impact, Context& context) const {

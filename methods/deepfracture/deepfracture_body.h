@@ -7,8 +7,8 @@
 #include "core/target.h"
 #include "methods/deepfracture/patterns.h"
 #include "methods/deepfracture/settings.h"
+#include "neural/field_decoder.h"
 #include "neural/model.h"
-#include "neural/voxel_decoder.h"
 
 namespace fracbench::deepfracture {
 
@@ -37,7 +37,7 @@ class DeepFractureBody : public Breakable {
   Settings settings_;
   neural::Model model_;
   Agreement agreement_;
-  neural::VoxelDecoder decoder_;
+  std::unique_ptr<neural::FieldDecoder> decoder_;
 };
 
 /// Reads what `save` wrote. Throws InputError where it is damaged or does not fit the target.

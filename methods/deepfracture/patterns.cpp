@@ -11,7 +11,7 @@
 #include "geometry/adjusted_rand_index.h"
 #include "geometry/gs_sdf.h"
 #include "geometry/signed_distance_grid.h"
-#include "neural/voxel_decoder.h"
+#include "neural/field_decoder.h"
 
 namespace fracbench::deepfracture {
 
@@ -77,7 +77,7 @@ Agreement measure_agreement(const LearningData& learning, const neural::DataSet&
                             const neural::Model& model, const Settings& settings,
                             const Context& context, std::size_t most) {
   Agreement result;
-  const neural::VoxelDecoder decoder(model);
+  const auto decoder = neural::make_decoder(model);
   const std::size_t count = std::min(most, model.rows());
   SegmentationOptions segmentation = settings.reconstruct.segmentation;
   segmentation.threads = context.threads;
@@ -97,7 +97,8 @@ Agreement measure_agreement(const LearningData& learning, const neural::DataSet&
     result.round_trip.push_back(judge(exact));
     try {
       result.decoded.push_back(
-          judge(decoder.decode(model.row(row), settings.resolution, context.threads)));
+          judge(decoder->decode({model.row(row), data.patterns[pattern].impulses},
+                                settings.resolution, context.threads)));
     } catch (const InputError&) {
       result.decoded.push_back(0);  // no voxel inside: not a body at all
     }

@@ -84,6 +84,8 @@ OptionsSchema options_schema() {
              {"batch", "group"}),
       choice("statistics", "of batch normalisation where the network predicts",
              {"sample", "running", "reestimated"}),
+      choice("decoder", "voxel: the paper's; implicit and pix2pix: its ablations",
+             {"voxel", "implicit", "pix2pix"}),
       integer("epochs", 1000, "", "passes over all patterns", 1, 1e6),
       number("learning_rate", 0.003, "", "of Adam", 1e-9, 1),
       integer("later_from", 400, "", "epochs after which the later rate holds", 0, 1e6),
@@ -128,6 +130,9 @@ Settings settings_from(const Options& options) {
       parse(options.text("normalisation"), {Normalisation::batch, Normalisation::group});
   s.network.statistics = parse(options.text("statistics"),
                                {Statistics::sample, Statistics::running, Statistics::reestimated});
+  s.network.decoder =
+      parse(options.text("decoder"),
+            {neural::Decoder::voxel, neural::Decoder::implicit, neural::Decoder::pix2pix});
   if (parity) s.network.epsilon = kParityEpsilon;
   neural::check(s.network);
   s.resolution = static_cast<int>(options.integer("resolution"));

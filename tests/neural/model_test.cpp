@@ -108,7 +108,8 @@ TEST_F(NeuralFiles, ModelComesBackAsItWas) {
     EXPECT_EQ(again.codebook, model.codebook);
     EXPECT_EQ(again.epochs.size(), 2u);
     const VoxelDecoder before(model), after(again);
-    EXPECT_EQ(before.decode(model.row(1), 32, 1).values, after.decode(again.row(1), 32, 1).values);
+    EXPECT_EQ(before.decode({model.row(1), {}}, 32, 1).values,
+              after.decode({again.row(1), {}}, 32, 1).values);
   }
 }
 
@@ -181,8 +182,8 @@ TEST(Codebook, ThatIsEmptyIsAnError) {
 TEST(VoxelDecoder, HasOnlyTheResolutionsOfItsNetwork) {
   const Model model =
       random_model({.resolutions = {32}, .width = 1.0 / 64}, test::made_up_data(1, {16}));
-  EXPECT_THROW(VoxelDecoder(model).decode(model.row(0), 64, 1), InputError);
-  EXPECT_THROW(VoxelDecoder(model).decode(model.row(0).first(10), 32, 1), InputError);
+  EXPECT_THROW(VoxelDecoder(model).decode({model.row(0), {}}, 64, 1), InputError);
+  EXPECT_THROW(VoxelDecoder(model).decode({model.row(0).first(10), {}}, 32, 1), InputError);
 }
 
 }  // namespace

@@ -9,8 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "neural/voxel_decoder.h"
+#include "neural/field_decoder.h"
+#include "neural/pix2pix_decoder.h"
 #include "tests/neural/made_up_data.h"
+#include "training/implicit_network.h"
+#include "training/pix2pix_network.h"
 #include "training/voxel_network.h"
 
 namespace fracbench::training {
@@ -97,19 +100,85 @@ TEST_P(PredictionTest, OfTheFastDecoderIsThatOfLibtorch) {
     const auto found = model.statistics.find(name);
     if (found != model.statistics.end()) tensor.copy_(tensor_of(found->second, tensor.sizes()));
   }
-  const neural::VoxelDecoder decoder(model);
+  const auto decoder = neural::make_decoder(model);
   const std::vector<float> row(model.row(0).begin(), model.row(0).end());
   const auto expected = network.decode(tensor_of(row, {static_cast<long>(row.size())}), false);
   for (const int r : {32, 64}) {
     const std::vector<float> wanted = values_of(expected.at(r));
     for (const int threads : {1, 2}) {
-      const auto field = decoder.decode(row, r, threads);
+      const auto field = decoder->decode({row, {}}, r, threads);
       double largest = 0;
       for (std::size_t k = 0; k < wanted.size(); ++k) {
         largest = std::max(largest, std::abs(static_cast<double>(wanted[k]) - field.values[k]));
       }
       EXPECT_LT(largest, 2e-5) << "r = " << r;
     }
+  }
+}
+
+void copy_weights(const Model& model, Network& network) {
+  const torch::NoGradGuard none;
+  for (auto& [name, tensor] : network.weights()) {
+    tensor.copy_(tensor_of(model.weights.at(name), tensor.sizes()));
+  }
+}
+
+double largest_difference(const torch::Tensor& expected, const std::vector<float>& values) {
+  return (expected.flatten() - tensor_of(values, {static_cast<long>(values.size())}))
+      .abs()
+      .max()
+      .item<double>();
+}
+
+TEST(ImplicitDecoder, IsWhatLibtorchTrains) {
+  const DataSet data = test::made_up_data(2, {32});
+  TrainingOptions options = small(2);
+  options.network.decoder = neural::Decoder::implicit;
+  const Model model = train(data, options, {});
+  Random random(1);
+  ImplicitNetwork network(options.network, random, torch::kCPU);
+  copy_weights(model, network);
+  const std::vector<float> row(model.row(1).begin(), model.row(1).end());
+  const auto field = neural::make_decoder(model)->decode({row, {}}, 32, 1);
+  std::vector<float> places;
+  for (int voxel = 0; voxel < 32 * 32 * 32; ++voxel) {
+    const Vec3 p = field.position(voxel % 32, voxel / 32 % 32, voxel / 1024);
+    for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(p[c]));
+  }
+  const torch::NoGradGuard none;
+  const torch::Tensor expected = network.evaluate(tensor_of(row, {static_cast<long>(row.size())}),
+                                                  tensor_of(places, {32 * 32 * 32, 3}));
+  EXPECT_LT(largest_difference(expected, field.values), 1e-5);
+}
+
+TEST(Pix2pixDecoder, IsWhatLibtorchTrains) {
+  const DataSet data = test::made_up_data(2, {32});
+  TrainingOptions options = small(2);
+  options.network.decoder = neural::Decoder::pix2pix;
+  const Model model = train(data, options, {});
+  Random random(1);
+  Pix2pixNetwork network(options.network, random, torch::kCPU);
+  copy_weights(model, network);
+  const auto& impulses = data.patterns[1].impulses;
+  const auto volume = neural::impulse_volume(impulses, data.scaling, 32);
+  EXPECT_EQ(std::ranges::count_if(volume, [](float v) { return v != 0; }), 1);
+  const torch::NoGradGuard none;
+  const torch::Tensor expected = network.generate(tensor_of(volume, {32, 32, 32}));
+  const auto field = neural::make_decoder(model)->decode({{}, impulses}, 32, 1);
+  EXPECT_LT(largest_difference(expected, field.values), 2e-5);
+}
+
+TEST(Training, OfTheOtherDecodersMakesTheErrorOfTheFieldSmaller) {
+  const DataSet data = test::made_up_data(3, {32});
+  for (const neural::Decoder decoder : {neural::Decoder::implicit, neural::Decoder::pix2pix}) {
+    TrainingOptions options = small(1);
+    options.network.decoder = decoder;
+    options.network.width = decoder == neural::Decoder::implicit ? 1.0 / 8 : 1.0 / 32;
+    options.learning_rate = 0.001;
+    const double early = pattern_losses(train(data, options, {}), data, 1)[0];
+    options.epochs = 40;
+    const double late = pattern_losses(train(data, options, {}), data, 1)[0];
+    EXPECT_LT(late, 0.3 * early) << to_string(decoder);
   }
 }
 
@@ -122,8 +191,9 @@ TEST(Training, LearnsEightPatternsByHeart) {
   const Model model = train(data, options, {});
   for (const double loss : pattern_losses(model, data, 1)) EXPECT_LT(loss, 1e-4);
   // It is the segment code and the impulse that tell the patterns apart.
-  const neural::VoxelDecoder decoder(model);
-  EXPECT_NE(decoder.decode(model.row(0), 32, 1).values, decoder.decode(model.row(1), 32, 1).values);
+  const auto decoder = neural::make_decoder(model);
+  EXPECT_NE(decoder->decode({model.row(0), {}}, 32, 1).values,
+            decoder->decode({model.row(1), {}}, 32, 1).values);
 }
 
 TEST(Training, LossFallsWithEveryObjectiveAndWithoutSegmentCodes) {
@@ -142,9 +212,13 @@ TEST(Training, LossFallsWithEveryObjectiveAndWithoutSegmentCodes) {
 
 TEST_F(TrainingFolder, GoesOnAfterTheLastEpochAsIfNothingHadHappened) {
   const DataSet data = test::made_up_data(3, {32});
-  for (const Statistics statistics : {Statistics::sample, Statistics::running}) {
+  for (const auto& [statistics, decoder] : {std::pair{Statistics::sample, neural::Decoder::voxel},
+                                            {Statistics::running, neural::Decoder::voxel},
+                                            {Statistics::sample, neural::Decoder::implicit},
+                                            {Statistics::sample, neural::Decoder::pix2pix}}) {
     TrainingOptions options = small(6);
     options.network.statistics = statistics;
+    options.network.decoder = decoder;
     options.later_from = 4;
     const Model whole = train(data, options, {});
     fs::remove_all(folder_);
