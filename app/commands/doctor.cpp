@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "core/error.h"
 #include "harness/provenance.h"
 #include "harness/suite_files.h"
+#include "methods/deepfracture/trainer.h"
 #include "methods/registry.h"
 #include "scenarios/shapes.h"
 
@@ -47,7 +49,16 @@ Json disk() {
 }
 
 Json device() {
-  return finding("device", true, "cpu; no method of this build uses an accelerator");
+  return finding("device", true,
+                 "cpu; fracbench-train takes --device cuda where its libtorch has CUDA");
+}
+
+Json trainer() {
+  try {
+    return finding("trainer", true, deepfracture::trainer_program().string());
+  } catch (const InputError& error) {
+    return finding("trainer", false, "not here: deepfracture cannot be trained", error.what());
+  }
 }
 
 Json shapes() {
@@ -77,7 +88,8 @@ Json look_at_everything() {
     findings.push_back(finding(name, true, value));
   }
   findings.push_back(finding("methods", true, fmt::format("{} built in", methods().size())));
-  for (const auto& look : {memory, disk, device, shapes, suites}) findings.push_back(look());
+  for (const auto& look : {memory, disk, device, trainer, shapes, suites})
+    findings.push_back(look());
   return findings;
 }
 
