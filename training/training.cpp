@@ -350,6 +350,7 @@ class Training {
 Model train(const DataSet& data, const TrainingOptions& options, const TrainingRun& run) {
   neural::check(options.network);
   check_data(data, options.network);
+  device_of(run.device);  // before anything is written
   keep_memory();
   torch::set_num_threads(std::max(1, run.threads));
   if (!run.checkpoints.empty()) std::filesystem::create_directories(run.checkpoints);
