@@ -76,7 +76,7 @@ std::string complaint(const fs::path& folder, const Json& manifest, bool digests
     if (fs::file_size(folder / name, error) != file["bytes"].get<std::uintmax_t>() || error) {
       return fmt::format("'{}' is missing or cut short", name);
     }
-    if (digests && digest_of(bytes_of(folder / name)) != file["sha256"]) {
+    if (digests && digest_of(bytes_of(folder / name)) != file["sha256"].get<std::string>()) {
       return fmt::format("'{}' is damaged", name);
     }
   }
