@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/sum.h"
 #include "geometry/edge_table.h"
 #include "geometry/shell_nesting.h"
 
@@ -106,6 +107,24 @@ std::vector<MeshPart> solid_components(const TriangleMesh& mesh) {
     parts.push_back(part_of(mesh, std::move(faces), renumbered));
   }
   return parts;
+}
+
+std::vector<std::vector<std::int32_t>> solids_of_shells(
+    const TriangleMesh& mesh, std::vector<std::vector<std::int32_t>> shells) {
+  if (shells.size() <= 1) return shells;
+  for (const auto& shell : shells) {
+    Sum volume6;
+    const Vec3 origin = mesh.corner(shell.front(), 0);
+    for (const std::int32_t f : shell) {
+      volume6 += (mesh.corner(f, 0) - origin)
+                     .dot((mesh.corner(f, 1) - origin).cross(mesh.corner(f, 2) - origin));
+    }
+    if (volume6.value() > 0) continue;
+    std::vector<std::vector<std::int32_t>> solids;
+    for (MeshPart& part : solid_components(mesh)) solids.push_back(std::move(part.source_face));
+    return solids;
+  }
+  return shells;
 }
 
 }  // namespace fracbench

@@ -24,4 +24,9 @@ MeshPart extract_faces(const TriangleMesh& mesh, const std::vector<std::uint8_t>
 /// in it, so that the volumes of the parts are all positive and add up to the whole.
 std::vector<MeshPart> solid_components(const TriangleMesh& mesh);
 
+/// The faces of each solid of a closed mesh whose shells are known: the shells themselves, without
+/// a further look, unless one of them bounds a cavity.
+std::vector<std::vector<std::int32_t>> solids_of_shells(
+    const TriangleMesh& mesh, std::vector<std::vector<std::int32_t>> shells);
+
 }  // namespace fracbench

@@ -106,10 +106,13 @@ Broken break_by_scene(const Scenario& scenario, const Target& target,
   return broken;
 }
 
-Broken break_by_impact(const FractureArguments& arguments, const Target& target,
-                       const Breakable& breakable, Context& context) {
+Impact given_impact(const FractureArguments& arguments, const Target& target) {
   const std::vector<double> v = parse_numbers(arguments.impact, 7, "--impact", kImpactForm);
-  const Impact impact = impact_at(target, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]);
+  return impact_at(target, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]);
+}
+
+Broken break_by_impact(const Impact& impact, const Target& target, const Breakable& breakable,
+                       Context& context) {
   Broken broken{{impact}, fragments_of(target.mesh, breakable.fracture(impact, context)), {}, ""};
   if (broken.fragments.size() < 2) broken.reason = "the method left the body whole";
   return broken;
@@ -120,13 +123,16 @@ Broken break_body(const FractureArguments& arguments, const Method& method, cons
                   const Target& target, Context& context) {
   // Pauses while a stage of its own name runs, so that the times add up.
   const auto rest = context.timer.stage("other");
+  // Before the body is prepared, which may take long, to end in a refusal.
+  std::optional<Impact> impact;
+  if (!arguments.impact.empty()) impact = given_impact(arguments, target);
   try {
     const std::shared_ptr<const Breakable> breakable = [&] {
       const auto stage = context.timer.stage("prepare");
       return std::move(
           prepare_body({.method = method, .options = options, .target = target}, context).body);
     }();
-    if (!arguments.impact.empty()) return break_by_impact(arguments, target, *breakable, context);
+    if (impact) return break_by_impact(*impact, target, *breakable, context);
     return break_by_scene(scenario_of(arguments), target, breakable, context);
   } catch (const MethodFailure& failure) {
     return {{}, {}, {}, failure.what(), true};

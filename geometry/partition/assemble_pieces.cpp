@@ -97,21 +97,7 @@ std::vector<std::vector<std::int32_t>> solids_of(const TriangleMesh& mesh) {
     }
     shells[shell].push_back(static_cast<std::int32_t>(f));
   }
-  if (shells.size() == 1) return shells;
-  // Several solids, unless one of the shells bounds a cavity.
-  for (const auto& shell : shells) {
-    Sum volume6;
-    const Vec3 origin = mesh.corner(shell.front(), 0);
-    for (const std::int32_t f : shell) {
-      volume6 += (mesh.corner(f, 0) - origin)
-                     .dot((mesh.corner(f, 1) - origin).cross(mesh.corner(f, 2) - origin));
-    }
-    if (volume6.value() > 0) continue;
-    std::vector<std::vector<std::int32_t>> solids;
-    for (MeshPart& part : solid_components(mesh)) solids.push_back(std::move(part.source_face));
-    return solids;
-  }
-  return shells;
+  return solids_of_shells(mesh, std::move(shells));
 }
 
 /// The connected solids of all regions.

@@ -66,20 +66,7 @@ std::vector<std::vector<std::int32_t>> solids_of(const TriangleMesh& mesh) {
   for (std::size_t f = 0; f < component.size(); ++f) {
     shells[component[f]].push_back(static_cast<std::int32_t>(f));
   }
-  if (count <= 1) return shells;
-  for (const auto& shell : shells) {
-    Sum volume6;
-    const Vec3 origin = mesh.corner(shell.front(), 0);
-    for (const std::int32_t f : shell) {
-      volume6 += (mesh.corner(f, 0) - origin)
-                     .dot((mesh.corner(f, 1) - origin).cross(mesh.corner(f, 2) - origin));
-    }
-    if (volume6.value() > 0) continue;
-    std::vector<std::vector<std::int32_t>> solids;
-    for (MeshPart& part : solid_components(mesh)) solids.push_back(std::move(part.source_face));
-    return solids;
-  }
-  return shells;
+  return solids_of_shells(mesh, std::move(shells));
 }
 
 double volume_of(const TriangleMesh& mesh, const std::vector<std::int32_t>& faces) {
