@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "geometry/adjusted_rand_index.h"
+#include "core/adjusted_rand_index.h"
 #include "geometry/fragment_labels.h"
 #include "harness/data_file.h"
 #include "harness/record.h"

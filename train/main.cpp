@@ -6,18 +6,22 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "neural/data_set.h"
 #include "neural/model.h"
+#include "training/representation_study.h"
 #include "training/training.h"
 
 namespace {
@@ -194,6 +198,44 @@ int info(const std::string& file, bool losses) {
   return kGood;
 }
 
+/// Targets above what was decoded, the first eight patterns side by side, as a grey PGM picture.
+std::string picture(const training::StudyResult& result, int side) {
+  const int columns = std::min<int>(8, static_cast<int>(result.targets.size()) / (side * side));
+  std::string bytes = fmt::format("P5\n{} {}\n255\n", columns * side, 2 * side);
+  for (const std::vector<float>* images : {&result.targets, &result.decoded}) {
+    for (int y = 0; y < side; ++y) {
+      for (int column = 0; column < columns; ++column) {
+        for (int x = 0; x < side; ++x) {
+          const float value = (*images)[static_cast<std::size_t>((column * side + y) * side + x)];
+          bytes += static_cast<char>(std::clamp(255 * value, 0.0f, 255.0f));
+        }
+      }
+    }
+  }
+  return bytes;
+}
+
+int study(const std::string& folder, training::StudyOptions options) {
+  std::filesystem::create_directories(folder);
+  Clock::time_point last;
+  options.progress = [&](std::string_view what, double fraction) {
+    if (Clock::now() - last < std::chrono::seconds(2)) return;
+    last = Clock::now();
+    fmt::print(stderr, "{}: {:.0f} %\n", what, 100 * fraction);
+  };
+  std::string csv = "representation,loss,agreement,ceiling,regions,true_regions\n";
+  for (const training::StudyResult& r : training::study_representations(options)) {
+    csv += fmt::format("{},{:.6g},{:.4f},{:.4f},{:.2f},{:.2f}\n", to_string(r.representation),
+                       r.loss, r.agreement, r.ceiling, r.regions, r.true_regions);
+    write_file_atomically(
+        std::filesystem::path(folder) / fmt::format("{}.pgm", to_string(r.representation)),
+        picture(r, options.side));
+  }
+  write_file_atomically(std::filesystem::path(folder) / "study.csv", csv);
+  fmt::print("{}", csv);
+  return kGood;
+}
+
 int run_program(int argc, char** argv, std::stop_token stop) {
   CLI::App app(kAbout, "fracbench-train");
   app.require_subcommand(1);
@@ -220,6 +262,25 @@ int run_program(int argc, char** argv, std::stop_token stop) {
   about->add_option("FILE", file)->required();
   about->add_flag("--losses", losses, "With the loss and the time of every epoch");
   about->callback([&] { chosen = [&] { return info(file, losses); }; });
+
+  std::string folder;
+  training::StudyOptions study_options;
+  auto* two = app.add_subcommand(
+      "study-2d",
+      "Learns 2D Voronoi diagrams as labels, lines and distances; writes a table and pictures");
+  two->add_option("--out", folder, "Folder")->required();
+  two->add_option("--epochs", study_options.epochs)
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  two->add_option("--patterns", study_options.patterns)
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  two->add_option("--seed", study_options.seed)->capture_default_str();
+  two->add_option("--threads", study_options.threads)->capture_default_str();
+  two->callback([&] {
+    study_options.stop = stop;
+    chosen = [&] { return study(folder, study_options); };
+  });
 
   try {
     app.parse(argc, argv);

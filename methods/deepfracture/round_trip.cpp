@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/adjusted_rand_index.h"
+#include "core/adjusted_rand_index.h"
 #include "geometry/fragment_labels.h"
 
 namespace fracbench::deepfracture {

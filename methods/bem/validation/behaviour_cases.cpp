@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "geometry/adjusted_rand_index.h"
+#include "core/adjusted_rand_index.h"
 #include "geometry/measures.h"
 #include "methods/bem/validation/breakage.h"
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/sum.h"
-#include "geometry/adjusted_rand_index.h"
+#include "core/adjusted_rand_index.h"
 #include "geometry/measures.h"
 #include "methods/modes/cage.h"
 #include "methods/modes/fracture_modes.h"

@@ -1,4 +1,4 @@
-#include "geometry/adjusted_rand_index.h"
+#include "core/adjusted_rand_index.h"
 
 #include <map>
 #include <stdexcept>
