@@ -207,7 +207,8 @@ std::string picture(const training::StudyResult& result, int side) {
       for (int column = 0; column < columns; ++column) {
         for (int x = 0; x < side; ++x) {
           const float value = (*images)[static_cast<std::size_t>((column * side + y) * side + x)];
-          bytes += static_cast<char>(std::clamp(255 * value, 0.0f, 255.0f));
+          const auto grey = static_cast<unsigned char>(std::clamp(255 * value, 0.0f, 255.0f));
+          bytes += static_cast<char>(grey);
         }
       }
     }

@@ -24,7 +24,7 @@ using Labels = std::vector<std::int32_t>;
 
 constexpr int kCode = 32, kBase = 8, kChannels = 64;
 constexpr double kSlope = 0.2, kEpsilon = 1e-5;
-// Distances are learned in units of this many pixels.
+// Distances are learned in units of this many pixels, and truncated there.
 constexpr double kUnit = 16;
 // From where on a pixel belongs to a line.
 constexpr float kLine = 0.5f;
@@ -81,7 +81,7 @@ std::vector<float> image_of(const Labels& labels, Representation representation,
     for (const int q : border) {
       least = std::min(least, std::pow(p % side - q % side, 2) + std::pow(p / side - q / side, 2));
     }
-    image[p] = static_cast<float>(std::sqrt(least) / kUnit);
+    image[p] = static_cast<float>(std::min(1.0, std::sqrt(least) / kUnit));
   }
   return image;
 }
