@@ -21,7 +21,8 @@ class FieldDecoder {
   virtual ~FieldDecoder() = default;
 
   /// The field at one of the network's resolutions, m. Throws InputError for another resolution,
-  /// naming those that there are, and for sources of another length.
+  /// naming those that there are, and for sources of another length. That of a voxel decoder is the
+  /// same for any number of threads.
   virtual VoxelGrid<float> decode(const FieldSource& source, int resolution, int threads) const = 0;
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/parallel.h"
+#include "neural/blas_threads.h"
 
 namespace fracbench::neural {
 
@@ -49,7 +49,7 @@ void normalise(std::vector<float>& volume, const NormalisationWeights& weights,
   const std::size_t voxels = volume.size() / channels;
   const std::size_t groups = network.normalisation == Normalisation::group ? kGroups : channels;
   const std::size_t each = channels / groups;
-  parallel_for(groups, threads, [&](std::size_t g) {
+  on_blas_threads(groups, threads, [&](std::size_t g, std::size_t) {
     const std::span values = std::span(volume).subspan(g * each * voxels, each * voxels);
     const auto [mean, inverse] = statistics_of(values, network.epsilon);
     for (std::size_t c = 0; c < each; ++c) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "neural/blas_threads.h"
+
 namespace fracbench::neural {
 
 namespace {
@@ -12,6 +14,8 @@ namespace {
 constexpr int kTaps = 64;
 // Columns of a product: enough to run at full speed, few enough for the columns to stay small.
 constexpr std::size_t kColumns = 1024;
+// Layers of outputs of the only channel that a thread makes at a time.
+constexpr int kOutputLayers = 8;
 
 std::size_t cube(int side) { return static_cast<std::size_t>(side) * side * side; }
 
@@ -98,63 +102,83 @@ TransposedConvolution::TransposedConvolution(const DecoderLayer& layer,
 std::vector<float> TransposedConvolution::operator()(const std::vector<float>& input,
                                                      int threads) const {
   openblas_set_num_threads(threads);
-  return layer_.out == 1 ? one_output(input) : many_outputs(input);
+  return layer_.out == 1 ? one_output(input, threads) : many_outputs(input, threads);
 }
 
-std::vector<float> TransposedConvolution::many_outputs(const std::vector<float>& input) const {
+std::vector<float> TransposedConvolution::many_outputs(const std::vector<float>& input,
+                                                       int threads) const {
   const int side = layer_.side;
   const std::size_t plane = static_cast<std::size_t>(side + 1) * (side + 1);
-  const int layers = static_cast<int>(
-      std::clamp<std::size_t>(kColumns / plane, 1, static_cast<std::size_t>(side) + 1));
+  // As many products of about kColumns columns as it takes; an even number, for an even number of
+  // threads. They do not depend on the number of threads, nor does the result.
+  const int most = static_cast<int>(
+      std::clamp<std::size_t>(kColumns / plane, 1, static_cast<std::size_t>(side)));
+  const int products = (side + most) / most + (side + most) / most % 2;
+  const int layers = (side + products) / products;
   const std::size_t width = plane * static_cast<std::size_t>(layers);
   const std::size_t rows_in = static_cast<std::size_t>(layer_.in) * 8;
   const std::size_t rows_out = static_cast<std::size_t>(layer_.out) * 8;
-  std::vector<float> columns(rows_in * width), values(rows_out * width);
+  std::vector<std::vector<float>> buffers(
+      static_cast<std::size_t>(std::clamp(threads, 1, products)),
+      std::vector<float>((rows_in + rows_out) * width));
   std::vector<float> output(static_cast<std::size_t>(layer_.out) * cube(2 * side));
-  for (int first = 0; first <= side; first += layers) {
-    const int count = std::min(layers, side + 1 - first);
-    for (int k = 0; k < count; ++k) {
-      gather_windows(input, layer_.in, side, first + k, width,
-                     columns.data() + static_cast<std::size_t>(k) * plane);
-    }
-    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(rows_out),
-                static_cast<int>(plane) * count, static_cast<int>(rows_in), 1.0f, matrix_.data(),
-                static_cast<int>(rows_in), columns.data(), static_cast<int>(width), 0.0f,
-                values.data(), static_cast<int>(width));
-    for (int k = 0; k < count; ++k) {
-      scatter_windows(values.data() + static_cast<std::size_t>(k) * plane, width, layer_.out, side,
-                      first + k, bias_, output);
-    }
-  }
+  on_blas_threads(
+      static_cast<std::size_t>(products), threads, [&](std::size_t n, std::size_t thread) {
+        float* columns = buffers[thread].data();
+        float* values = columns + rows_in * width;
+        const int first = static_cast<int>(n) * layers, count = std::min(layers, side + 1 - first);
+        if (count <= 0) return;
+        for (int k = 0; k < count; ++k) {
+          gather_windows(input, layer_.in, side, first + k, width,
+                         columns + static_cast<std::size_t>(k) * plane);
+        }
+        cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(rows_out),
+                    static_cast<int>(plane) * count, static_cast<int>(rows_in), 1.0f,
+                    matrix_.data(), static_cast<int>(rows_in), columns, static_cast<int>(width),
+                    0.0f, values, static_cast<int>(width));
+        for (int k = 0; k < count; ++k) {
+          scatter_windows(values + static_cast<std::size_t>(k) * plane, width, layer_.out, side,
+                          first + k, bias_, output);
+        }
+      });
   return output;
 }
 
 // With one output, a product over windows would have eight rows only and copy every input eight
 // times: instead, all taps of each input at once, then their sums.
-std::vector<float> TransposedConvolution::one_output(const std::vector<float>& input) const {
+std::vector<float> TransposedConvolution::one_output(const std::vector<float>& input,
+                                                     int threads) const {
   const int side = layer_.side, out_side = 2 * side;
   const std::size_t plane = static_cast<std::size_t>(side) * side;
-  std::vector<float> values(kTaps * plane);
+  std::vector<std::vector<float>> buffers(static_cast<std::size_t>(std::max(1, threads)),
+                                          std::vector<float>(kTaps * plane));
   std::vector<float> output(cube(out_side), bias_.empty() ? 0.0f : bias_[0]);
-  for (int z = 0; z < side; ++z) {
-    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, kTaps, static_cast<int>(plane),
-                layer_.in, 1.0f, matrix_.data(), layer_.in,
-                input.data() + static_cast<std::size_t>(z) * plane, static_cast<int>(cube(side)),
-                0.0f, values.data(), static_cast<int>(plane));
-    for (int k = 0; k < kTaps; ++k) {
-      const int oz = 2 * z - 1 + k / 16, dy = k / 4 % 4 - 1, dx = k % 4 - 1;
-      if (oz < 0 || oz >= out_side) continue;
-      for (int y = 0; y < side; ++y) {
-        const int oy = 2 * y + dy;
-        if (oy < 0 || oy >= out_side) continue;
-        const float* in =
-            &values[static_cast<std::size_t>(k) * plane + static_cast<std::size_t>(y) * side];
-        float* out = &output[(static_cast<std::size_t>(oz) * out_side + oy) * out_side];
-        const int from = dx < 0 ? 1 : 0, to = dx > 1 ? side - 1 : side;
-        for (int x = from; x < to; ++x) out[2 * x + dx] += in[x];
+  const auto parts = static_cast<std::size_t>((out_side + kOutputLayers - 1) / kOutputLayers);
+  on_blas_threads(parts, threads, [&](std::size_t part, std::size_t thread) {
+    const int first = static_cast<int>(part) * kOutputLayers;
+    const int end = std::min(first + kOutputLayers, out_side);
+    // Input layer z reaches the outputs 2 z - 1 to 2 z + 2, by the taps 0 to 3.
+    for (int z = std::max(0, first / 2 - 1); z <= std::min(side - 1, end / 2); ++z) {
+      const int from_tap = std::max(0, first - 2 * z + 1), to_tap = std::min(4, end - 2 * z + 1);
+      float* values = buffers[thread].data();
+      cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, 16 * (to_tap - from_tap),
+                  static_cast<int>(plane), layer_.in, 1.0f,
+                  matrix_.data() + static_cast<std::size_t>(16 * from_tap * layer_.in), layer_.in,
+                  input.data() + static_cast<std::size_t>(z) * plane, static_cast<int>(cube(side)),
+                  0.0f, values, static_cast<int>(plane));
+      for (int k = 16 * from_tap; k < 16 * to_tap; ++k, values += plane) {
+        const int oz = 2 * z - 1 + k / 16, dy = k / 4 % 4 - 1, dx = k % 4 - 1;
+        for (int y = 0; y < side; ++y) {
+          const int oy = 2 * y + dy;
+          if (oy < 0 || oy >= out_side) continue;
+          const float* in = values + static_cast<std::size_t>(y) * side;
+          float* out = &output[(static_cast<std::size_t>(oz) * out_side + oy) * out_side];
+          const int from = dx < 0 ? 1 : 0, to = dx > 1 ? side - 1 : side;
+          for (int x = from; x < to; ++x) out[2 * x + dx] += in[x];
+        }
       }
     }
-  }
+  });
   return output;
 }
 

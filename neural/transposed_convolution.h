@@ -20,13 +20,13 @@ class TransposedConvolution {
   TransposedConvolution(const DecoderLayer& layer, std::span<const float> weight,
                         std::span<const float> bias);
 
-  /// `input` is [in][side^3], x fastest; the result [out][(2 side)^3]. Uses `threads` threads of
-  /// BLAS, whose number is a setting of the process.
+  /// `input` is [in][side^3], x fastest; the result [out][(2 side)^3], the same for any number of
+  /// threads. They are those of BLAS, whose number is a setting of the process.
   std::vector<float> operator()(const std::vector<float>& input, int threads) const;
 
  private:
-  std::vector<float> many_outputs(const std::vector<float>& input) const;
-  std::vector<float> one_output(const std::vector<float>& input) const;
+  std::vector<float> many_outputs(const std::vector<float>& input, int threads) const;
+  std::vector<float> one_output(const std::vector<float>& input, int threads) const;
 
   DecoderLayer layer_;
   std::vector<float> matrix_;

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "neural/blas_threads.h"
 #include "neural/normalise.h"
 
 namespace fracbench::neural {
@@ -67,9 +67,14 @@ VoxelGrid<float> VoxelDecoder::decode(const FieldSource& source, int resolution,
   }
   openblas_set_num_threads(threads);
   std::vector<float> volume(linear_bias_.begin(), linear_bias_.end());
-  cblas_sgemv(CblasRowMajor, CblasNoTrans, static_cast<int>(volume.size()),
-              static_cast<int>(code.size()), 1.0f, linear_weight_.data(),
-              static_cast<int>(code.size()), code.data(), 1, 1.0f, volume.data(), 1);
+  // A channel at a time: OpenBLAS sums in another order for another number of threads.
+  constexpr std::size_t kRows = kBaseSide * kBaseSide * kBaseSide;
+  on_blas_threads(volume.size() / kRows, threads, [&](std::size_t channel, std::size_t) {
+    cblas_sgemv(CblasRowMajor, CblasNoTrans, kRows, static_cast<int>(code.size()), 1.0f,
+                linear_weight_.data() + channel * kRows * code.size(),
+                static_cast<int>(code.size()), code.data(), 1, 1.0f,
+                volume.data() + channel * kRows, 1);
+  });
   leaky_relu(volume, static_cast<float>(network_.slope));
   const auto layers = decoder_blocks(network_);
   for (std::size_t k = 0; k < layers.size() && 4 * layers[k].side <= resolution; ++k) {
@@ -80,12 +85,13 @@ VoxelGrid<float> VoxelDecoder::decode(const FieldSource& source, int resolution,
   field.values =
       heads_[static_cast<std::size_t>(std::ranges::find(network_.resolutions, resolution) -
                                       network_.resolutions.begin())](volume, threads);
-  parallel_for(static_cast<std::size_t>(resolution), threads, [&](std::size_t plane) {
-    const std::size_t size = field.values.size() / static_cast<std::size_t>(resolution);
-    for (float& v : std::span(field.values).subspan(plane * size, size)) {
-      v = field_unit_ * std::tanh(v);
-    }
-  });
+  on_blas_threads(
+      static_cast<std::size_t>(resolution), threads, [&](std::size_t plane, std::size_t) {
+        const std::size_t size = field.values.size() / static_cast<std::size_t>(resolution);
+        for (float& v : std::span(field.values).subspan(plane * size, size)) {
+          v = field_unit_ * std::tanh(v);
+        }
+      });
   return field;
 }
 
