@@ -42,7 +42,7 @@ void leaky_relu(std::span<float> values, float slope) {
   for (float& v : values) v = v > 0 ? v : slope * v;
 }
 
-void normalise(std::vector<float>& volume, const NormalisationWeights& weights,
+void normalise(std::span<float> volume, const NormalisationWeights& weights,
                const NetworkOptions& network, int threads) {
   const auto slope = static_cast<float>(network.slope);
   const std::size_t channels = weights.scale.size();
@@ -50,7 +50,7 @@ void normalise(std::vector<float>& volume, const NormalisationWeights& weights,
   const std::size_t groups = network.normalisation == Normalisation::group ? kGroups : channels;
   const std::size_t each = channels / groups;
   on_blas_threads(groups, threads, [&](std::size_t g, std::size_t) {
-    const std::span values = std::span(volume).subspan(g * each * voxels, each * voxels);
+    const std::span values = volume.subspan(g * each * voxels, each * voxels);
     const auto [mean, inverse] = statistics_of(values, network.epsilon);
     for (std::size_t c = 0; c < each; ++c) {
       const float scale = weights.scale[g * each + c] * inverse;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "neural/network_options.h"
 
@@ -16,7 +15,7 @@ void leaky_relu(std::span<float> values, float slope);
 
 /// Normalises each channel, or each of eight groups of channels, of a volume over its voxels, by
 /// its own mean and variance, then applies the leaky ReLU; in place.
-void normalise(std::vector<float>& volume, const NormalisationWeights& weights,
+void normalise(std::span<float> volume, const NormalisationWeights& weights,
                const NetworkOptions& network, int threads);
 
 }  // namespace fracbench::neural

@@ -21,12 +21,12 @@ std::size_t cube(int side) { return static_cast<std::size_t>(side) * side * side
 
 /// Convolution of kernel 4, stride 2, padding 1: [in][side^3] to [out][(side / 2)^3]. `weight` is
 /// [out][in][4][4][4].
-std::vector<float> convolution(const std::vector<float>& input, int side, int in, int out,
-                               const std::vector<float>& weight, const std::vector<float>& bias) {
+Volume convolution(std::span<const float> input, int side, int in, int out,
+                   const std::vector<float>& weight, const std::vector<float>& bias) {
   const int half = side / 2;
   const std::size_t plane = static_cast<std::size_t>(half) * half;
   const std::size_t rows = static_cast<std::size_t>(in) * kTaps;
-  std::vector<float> columns(rows * plane), output(static_cast<std::size_t>(out) * cube(half));
+  Volume columns(rows * plane), output(static_cast<std::size_t>(out) * cube(half));
   for (int z = 0; z < half; ++z) {
     for (std::size_t row = 0; row < rows; ++row) {
       const int tap = static_cast<int>(row % kTaps);
@@ -90,8 +90,9 @@ VoxelGrid<float> Pix2pixDecoder::decode(const FieldSource& source, int resolutio
   const auto unit = static_cast<float>(model_.field_unit);
   const std::vector<int> channels = unet_channels(network);
   const auto depth = static_cast<int>(channels.size());
-  std::vector<std::vector<float>> levels;
-  std::vector<float> volume = impulse_volume(source.impulses, model_.scaling, resolution);
+  std::vector<Volume> levels;
+  const auto impulses = impulse_volume(source.impulses, model_.scaling, resolution);
+  Volume volume(impulses.begin(), impulses.end());
   for (int k = 0, side = resolution; k < depth; ++k, side /= 2) {
     volume = convolution(volume, side, k == 0 ? 1 : channels[k - 1], channels[k],
                          weight(k, "down", "weight"), weight(k, "down", "bias"));
@@ -104,7 +105,7 @@ VoxelGrid<float> Pix2pixDecoder::decode(const FieldSource& source, int resolutio
   }
   for (int k = depth - 1, side = 4; k >= 0; --k, side *= 2) {
     if (k < depth - 1) {
-      const std::vector<float>& level = levels[static_cast<std::size_t>(k)];
+      const Volume& level = levels[static_cast<std::size_t>(k)];
       volume.insert(volume.end(), level.begin(), level.end());
     }
     const int to = k == 0 ? 1 : channels[k - 1];

@@ -23,8 +23,8 @@ std::size_t cube(int side) { return static_cast<std::size_t>(side) * side * side
 int tap(int p, int a) { return 3 - p - 2 * a; }
 
 /// One layer of windows [channel][a_z][a_y][a_x][(side + 1)^2], between input layers z - 1 and z.
-void gather_windows(const std::vector<float>& input, int channels, int side, int z,
-                    std::size_t stride, float* columns) {
+void gather_windows(std::span<const float> input, int channels, int side, int z, std::size_t stride,
+                    float* columns) {
   const int windows = side + 1;
   for (int c = 0; c < channels; ++c) {
     const float* volume = &input[static_cast<std::size_t>(c) * cube(side)];
@@ -48,7 +48,7 @@ void gather_windows(const std::vector<float>& input, int channels, int side, int
 
 /// Puts what one layer of windows gave where it belongs.
 void scatter_windows(const float* values, std::size_t stride, int channels, int side, int z,
-                     const std::vector<float>& bias, std::vector<float>& output) {
+                     const std::vector<float>& bias, std::span<float> output) {
   const int windows = side + 1, out_side = 2 * side;
   for (int c = 0; c < channels; ++c) {
     const float shift = bias.empty() ? 0.0f : bias[static_cast<std::size_t>(c)];
@@ -99,14 +99,12 @@ TransposedConvolution::TransposedConvolution(const DecoderLayer& layer,
   }
 }
 
-std::vector<float> TransposedConvolution::operator()(const std::vector<float>& input,
-                                                     int threads) const {
+Volume TransposedConvolution::operator()(std::span<const float> input, int threads) const {
   openblas_set_num_threads(threads);
   return layer_.out == 1 ? one_output(input, threads) : many_outputs(input, threads);
 }
 
-std::vector<float> TransposedConvolution::many_outputs(const std::vector<float>& input,
-                                                       int threads) const {
+Volume TransposedConvolution::many_outputs(std::span<const float> input, int threads) const {
   const int side = layer_.side;
   const std::size_t plane = static_cast<std::size_t>(side + 1) * (side + 1);
   // As many products of about kColumns columns as it takes; an even number, for an even number of
@@ -118,10 +116,9 @@ std::vector<float> TransposedConvolution::many_outputs(const std::vector<float>&
   const std::size_t width = plane * static_cast<std::size_t>(layers);
   const std::size_t rows_in = static_cast<std::size_t>(layer_.in) * 8;
   const std::size_t rows_out = static_cast<std::size_t>(layer_.out) * 8;
-  std::vector<std::vector<float>> buffers(
-      static_cast<std::size_t>(std::clamp(threads, 1, products)),
-      std::vector<float>((rows_in + rows_out) * width));
-  std::vector<float> output(static_cast<std::size_t>(layer_.out) * cube(2 * side));
+  std::vector<Volume> buffers(static_cast<std::size_t>(std::clamp(threads, 1, products)),
+                              Volume((rows_in + rows_out) * width));
+  Volume output(static_cast<std::size_t>(layer_.out) * cube(2 * side));
   on_blas_threads(
       static_cast<std::size_t>(products), threads, [&](std::size_t n, std::size_t thread) {
         float* columns = buffers[thread].data();
@@ -146,17 +143,19 @@ std::vector<float> TransposedConvolution::many_outputs(const std::vector<float>&
 
 // With one output, a product over windows would have eight rows only and copy every input eight
 // times: instead, all taps of each input at once, then their sums.
-std::vector<float> TransposedConvolution::one_output(const std::vector<float>& input,
-                                                     int threads) const {
+Volume TransposedConvolution::one_output(std::span<const float> input, int threads) const {
   const int side = layer_.side, out_side = 2 * side;
   const std::size_t plane = static_cast<std::size_t>(side) * side;
-  std::vector<std::vector<float>> buffers(static_cast<std::size_t>(std::max(1, threads)),
-                                          std::vector<float>(kTaps * plane));
-  std::vector<float> output(cube(out_side), bias_.empty() ? 0.0f : bias_[0]);
+  std::vector<Volume> buffers(static_cast<std::size_t>(std::max(1, threads)),
+                              Volume(kTaps * plane));
+  Volume output(cube(out_side));
   const auto parts = static_cast<std::size_t>((out_side + kOutputLayers - 1) / kOutputLayers);
   on_blas_threads(parts, threads, [&](std::size_t part, std::size_t thread) {
     const int first = static_cast<int>(part) * kOutputLayers;
     const int end = std::min(first + kOutputLayers, out_side);
+    const std::size_t square = static_cast<std::size_t>(out_side) * out_side;
+    std::fill_n(&output[static_cast<std::size_t>(first) * square],
+                static_cast<std::size_t>(end - first) * square, bias_.empty() ? 0.0f : bias_[0]);
     // Input layer z reaches the outputs 2 z - 1 to 2 z + 2, by the taps 0 to 3.
     for (int z = std::max(0, first / 2 - 1); z <= std::min(side - 1, end / 2); ++z) {
       const int from_tap = std::max(0, first - 2 * z + 1), to_tap = std::min(4, end - 2 * z + 1);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "neural/network_options.h"
+#include "neural/volume.h"
 
 namespace fracbench::neural {
 
@@ -22,11 +23,11 @@ class TransposedConvolution {
 
   /// `input` is [in][side^3], x fastest; the result [out][(2 side)^3], the same for any number of
   /// threads. They are those of BLAS, whose number is a setting of the process.
-  std::vector<float> operator()(const std::vector<float>& input, int threads) const;
+  Volume operator()(std::span<const float> input, int threads) const;
 
  private:
-  std::vector<float> many_outputs(const std::vector<float>& input, int threads) const;
-  std::vector<float> one_output(const std::vector<float>& input, int threads) const;
+  Volume many_outputs(std::span<const float> input, int threads) const;
+  Volume one_output(std::span<const float> input, int threads) const;
 
   DecoderLayer layer_;
   std::vector<float> matrix_;

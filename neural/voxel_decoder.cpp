@@ -49,7 +49,7 @@ VoxelDecoder::VoxelDecoder(const Model& model)
   }
 }
 
-void VoxelDecoder::finish(std::vector<float>& volume, const Block& block, int threads) const {
+void VoxelDecoder::finish(std::span<float> volume, const Block& block, int threads) const {
   if (block.scale.empty()) {
     leaky_relu(volume, static_cast<float>(network_.slope));
   } else {
@@ -66,7 +66,7 @@ VoxelGrid<float> VoxelDecoder::decode(const FieldSource& source, int resolution,
         fmt::format("a code has {} values, must have {}", code.size(), network_.code_size()));
   }
   openblas_set_num_threads(threads);
-  std::vector<float> volume(linear_bias_.begin(), linear_bias_.end());
+  Volume volume(linear_bias_.begin(), linear_bias_.end());
   // A channel at a time: OpenBLAS sums in another order for another number of threads.
   constexpr std::size_t kRows = kBaseSide * kBaseSide * kBaseSide;
   on_blas_threads(volume.size() / kRows, threads, [&](std::size_t channel, std::size_t) {
@@ -82,16 +82,15 @@ VoxelGrid<float> VoxelDecoder::decode(const FieldSource& source, int resolution,
     finish(volume, blocks_[k], threads);
   }
   VoxelGrid<float> field = unit_grid<float>(resolution);
-  field.values =
-      heads_[static_cast<std::size_t>(std::ranges::find(network_.resolutions, resolution) -
-                                      network_.resolutions.begin())](volume, threads);
-  on_blas_threads(
-      static_cast<std::size_t>(resolution), threads, [&](std::size_t plane, std::size_t) {
-        const std::size_t size = field.values.size() / static_cast<std::size_t>(resolution);
-        for (float& v : std::span(field.values).subspan(plane * size, size)) {
-          v = field_unit_ * std::tanh(v);
-        }
-      });
+  const auto head = static_cast<std::size_t>(std::ranges::find(network_.resolutions, resolution) -
+                                             network_.resolutions.begin());
+  volume = heads_[head](volume, threads);
+  const std::size_t plane = volume.size() / static_cast<std::size_t>(resolution);
+  on_blas_threads(static_cast<std::size_t>(resolution), threads, [&](std::size_t z, std::size_t) {
+    for (std::size_t k = z * plane; k < (z + 1) * plane; ++k) {
+      field.values[k] = field_unit_ * std::tanh(volume[k]);
+    }
+  });
   return field;
 }
 

@@ -28,7 +28,7 @@ class VoxelDecoder : public FieldDecoder {
     std::vector<float> scale, shift;  ///< of the normalisation; empty where it is in the weights
   };
 
-  void finish(std::vector<float>& volume, const Block& block, int threads) const;
+  void finish(std::span<float> volume, const Block& block, int threads) const;
 
   const NetworkOptions& network_;
   float field_unit_ = 1;

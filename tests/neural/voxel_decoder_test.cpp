@@ -52,7 +52,7 @@ TEST(TransposedConvolution, IsThatOfTheDefinitionForAnySideAndNumberOfThreads) {
           random_values(static_cast<std::size_t>(layer.in * side * side) * side, random);
       const auto expected = by_definition(layer, weight, bias, input);
       const TransposedConvolution convolution(layer, weight, bias);
-      const auto output = convolution(input, 1);
+      const Volume output = convolution(input, 1);
       ASSERT_EQ(output.size(), expected.size());
       double largest = 0;
       for (std::size_t k = 0; k < output.size(); ++k) {
