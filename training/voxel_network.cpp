@@ -72,7 +72,8 @@ void VoxelNetwork::end_statistics(std::size_t samples) {
 
 std::map<int, torch::Tensor> VoxelNetwork::decode(const torch::Tensor& code, bool training) {
   torch::Tensor volume = torch::leaky_relu(
-      torch::mv(weights_["linear.weight"], code) + weights_["linear.bias"], options_.slope);
+      torch::linear(code.unsqueeze(0), weights_["linear.weight"], weights_["linear.bias"]),
+      options_.slope);
   volume = volume.reshape({1, -1, neural::kBaseSide, neural::kBaseSide, neural::kBaseSide});
   std::map<int, torch::Tensor> fields;
   for (const neural::DecoderLayer& layer : blocks_) {
