@@ -37,6 +37,23 @@ Suite learning_suite(const Suite& suite) {
   return result;
 }
 
+std::vector<std::string> learning_shapes(const Suite& suite,
+                                         const std::vector<std::string>& wanted) {
+  std::vector<std::string> labels;
+  if (!suite.learning) return labels;
+  const auto names = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+  };
+  const std::vector<std::string>& covered = suite.learning->shapes;
+  for (const SuiteShape& shape : suite.shapes) {
+    if (!covered.empty() && !names(covered, shape.label)) continue;
+    if (wanted.empty() || names(wanted, shape.label) || names(wanted, shape.request.name)) {
+      labels.push_back(shape.label);
+    }
+  }
+  return labels;
+}
+
 Plan make_learning_plan(const Suite& suite, const Catalog& catalog,
                         const std::vector<std::string>& shapes) {
   const Suite collisions = learning_suite(suite);

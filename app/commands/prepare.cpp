@@ -26,9 +26,10 @@ ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
                   const SuiteArguments& a) {
   Json json = Json::object();
   std::string text;
-  if (suite.learning) {
-    const CostEstimate cost = estimate_cost(make_learning_plan(suite, catalog, a.plan.shapes),
-                                            a.learning_folder(), a.jobs);
+  const std::vector<std::string> learned = learning_shapes(suite, a.plan.shapes);
+  if (!learned.empty()) {
+    const CostEstimate cost =
+        estimate_cost(make_learning_plan(suite, catalog, learned), a.learning_folder(), a.jobs);
     json["learning"] = cost.as_json();
     text += fmt::format("learning data: {}\n", cost.describe());
   }
@@ -86,7 +87,7 @@ ExitCode prepare(SuiteArguments a, std::stop_token stop) {
 
   Json json = Json::object();
   ExitCode code = ExitCode::good;
-  if (suite.learning) {
+  if (!learning_shapes(suite, a.plan.shapes).empty()) {
     const LearningResult result = make_learning_data(suite, catalog, a, stop);
     json["learning"] = to_json(result);
     json["learning"]["folder"] = a.learning_folder().string();

@@ -59,6 +59,7 @@ TEST_F(Prepare, SaysThatTooFewBroke) {
 TEST_F(Prepare, PreparesTheMethodsOfASuite) {
   const Answer answer = call("prepare quick --shapes cube,mug --json", folder_.path());
   ASSERT_EQ(answer.exit_code, 0) << answer.errors;
+  EXPECT_FALSE(answer.json().contains("learning")) << "the suite learns on other shapes";
   const auto prepared = answer.json()["prepared"];
   ASSERT_GE(prepared.size(), 2u);
   EXPECT_EQ(prepared[0]["prepared"], true);
