@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/finding.h"
 #include "core/progress.h"
 #include "core/random.h"
 #include "core/stage_timer.h"
@@ -24,6 +25,8 @@ struct Context {
   /// What a break should be remembered with beside its pieces, a line each; part of the record, so
   /// the same lines for the same seed. Null: nobody listens.
   std::vector<std::string>* notes = nullptr;
+  /// Numbers to remember with it, likewise; of two of one name the later one counts.
+  std::vector<Finding>* findings = nullptr;
   /// A folder for pictures of the break, in files whose names start with the method's; empty: none.
   /// What is broken does not depend on it.
   std::filesystem::path pictures = {};
@@ -34,6 +37,12 @@ struct Context {
 
   void note(std::string line) const {
     if (notes) notes->push_back(std::move(line));
+  }
+
+  void found(Finding finding) const {
+    if (!findings) return;
+    std::erase_if(*findings, [&](const Finding& f) { return f.name == finding.name; });
+    findings->push_back(std::move(finding));
   }
 
   /// Throws Cancelled when the work was asked to stop; long loops call it at least twice a second.

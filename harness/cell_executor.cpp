@@ -90,19 +90,27 @@ void CellExecutor::enter(CellPhase phase) const {
 
 SceneResult CellExecutor::run_scene(const Cell& cell, const Prepared& prepared, StageTimer& timer,
                                     Progress& progress, const std::stop_token& stop,
-                                    std::vector<std::string>* notes) const {
+                                    CellOutcome* outcome) const {
   if (!prepared.breakable) throw MethodFailure(prepared.failure);
   Random random(cell.seed);
+  std::vector<Finding> findings;
   Context context{.random = random,
                   .timer = timer,
                   .progress = progress,
                   .stop = stop,
                   .threads = plan_.suite.threads_per_cell,
-                  .notes = notes};
+                  .notes = outcome ? &outcome->notes : nullptr,
+                  .findings = &findings};
   SceneResult result =
       catalog_.run_scene(plan_.shapes[cell.shape].scenarios[cell.scenario].scenario,
                          *prepared.target, prepared.breakable, context);
   context.stop_if_asked();
+  if (outcome) {
+    for (Finding& finding : findings) {
+      outcome->measurement.series.push_back(
+          {std::move(finding.name), std::move(finding.values), std::move(finding.unit)});
+    }
+  }
   return result;
 }
 
@@ -147,7 +155,7 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
     record.cost.prepare_seconds = prepared.seconds;
     warm_up(cell, prepared, timer, progress, stop);
     enter(CellPhase::measure);
-    record.outcome.scene = run_scene(cell, prepared, timer, progress, stop, &record.outcome.notes);
+    record.outcome.scene = run_scene(cell, prepared, timer, progress, stop, &record.outcome);
     const auto stage = timer.stage("metrics");
     const SceneResult& scene = record.outcome.scene;
     if (scene.impacts.empty()) record.outcome.status = CellStatus::unbroken;

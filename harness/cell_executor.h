@@ -32,7 +32,7 @@ class CellExecutor {
   void enter(CellPhase phase) const;
   SceneResult run_scene(const Cell& cell, const Prepared& prepared, StageTimer& timer,
                         Progress& progress, const std::stop_token& stop,
-                        std::vector<std::string>* notes) const;
+                        CellOutcome* outcome) const;
   /// The suite's warm-up runs, where the body was prepared just now.
   void warm_up(const Cell& cell, const Prepared& prepared, StageTimer& timer, Progress& progress,
                const std::stop_token& stop) const;

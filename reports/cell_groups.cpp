@@ -28,6 +28,15 @@ std::vector<CellGroup> group_cells(const std::vector<CellSummary>& cells) {
   return result;
 }
 
+std::size_t method_place(const ReportInput& input, std::string_view label) {
+  std::vector<std::string_view> labels;
+  for (const CellSummary& cell : input.cells) {
+    if (cell.label == label) break;
+    if (std::ranges::find(labels, cell.label) == labels.end()) labels.push_back(cell.label);
+  }
+  return labels.size();
+}
+
 std::vector<CellRef> broken_cells(std::span<const CellRef> cells) {
   std::vector<CellRef> result;
   std::ranges::copy_if(cells, std::back_inserter(result),

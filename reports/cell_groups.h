@@ -25,6 +25,9 @@ struct CellGroup {
 /// All cells by shape and method, both in the order in which they first appear.
 std::vector<CellGroup> group_cells(const std::vector<CellSummary>& cells);
 
+/// The place of a method among those of the report: its colour in all figures.
+std::size_t method_place(const ReportInput& input, std::string_view label);
+
 /// The cells that ended `ok`: what is pooled.
 std::vector<CellRef> broken_cells(std::span<const CellRef> cells);
 

@@ -7,6 +7,7 @@
 #include "harness/cell_summary.h"
 #include "harness/reference_agreement.h"
 #include "metrics/cluster_bootstrap.h"
+#include "reports/figure.h"
 #include "reports/table.h"
 
 namespace fracbench {
@@ -31,6 +32,9 @@ struct ReportItemInfo {
 struct ReportSection {
   std::vector<std::string> paragraphs;
   std::vector<Table> tables;  ///< empty: there is nothing to show, and the section is left out
+  std::vector<Figure> figures = {};
+
+  bool empty() const { return tables.empty(); }
 };
 
 /// A table or figure of the report. Stateless, without input or output of its own; adding one is a

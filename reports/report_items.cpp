@@ -6,6 +6,7 @@
 #include "reports/items/label_agreement.h"
 #include "reports/items/overview.h"
 #include "reports/items/stage_times_table.h"
+#include "reports/items/training.h"
 #include "reports/items/validity_table.h"
 #include "reports/items/volume_distribution.h"
 
@@ -20,6 +21,7 @@ const std::vector<std::unique_ptr<ReportItem>>& report_items() {
     list.push_back(std::make_unique<VolumeDistribution>());
     list.push_back(std::make_unique<FractureSurfaces>());
     list.push_back(std::make_unique<LabelAgreementTable>());
+    list.push_back(std::make_unique<Training>());
     list.push_back(std::make_unique<StageTimesTable>());
     list.push_back(std::make_unique<ErrataTable>());
     return list;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "reports/raw_data.h"
 #include "reports/report_items.h"
+#include "reports/svg.h"
 
 namespace fracbench {
 
@@ -26,10 +27,17 @@ std::vector<ReportFile> render_report(const ReportInput& input) {
   };
   for (const auto& item : report_items()) {
     const ReportSection section = item->render(input);
-    if (section.tables.empty()) continue;
+    if (section.empty()) continue;
     text += fmt::format("\n## {}\n", item->info().title);
     for (const std::string& paragraph : section.paragraphs)
       text += fmt::format("\n{}\n", paragraph);
+    for (const Figure& figure : section.figures) {
+      std::string svg = to_svg(figure);
+      if (svg.empty()) continue;
+      text += fmt::format("\n![{0}]({1}.svg)\n", figure.title, figure.name);
+      for (const std::string& note : figure.notes) text += fmt::format("\n{}\n", note);
+      files.push_back({figure.name + ".svg", std::move(svg)});
+    }
     for (const Table& table : section.tables) {
       add_csv(table);
       text += fmt::format("\n### {}\n", table.title);

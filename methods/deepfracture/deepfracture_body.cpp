@@ -47,6 +47,22 @@ DeepFractureBody::DeepFractureBody(const Target& target, Settings settings, neur
       agreement_(std::move(agreement)),
       decoder_(neural::make_decoder(model_)) {}
 
+/// Says how well the training went: its loss, what exact fields give back (the ceiling) and what
+/// decoded ones do.
+void DeepFractureBody::report_training(Context& context) const {
+  std::vector<double> losses;
+  for (const neural::EpochRecord& epoch : model_.epochs) losses.push_back(epoch.loss);
+  context.found({"deepfracture_training_loss", std::move(losses)});
+  if (agreement_.round_trip.empty()) return;
+  context.note(fmt::format(
+      "deepfracture: {} training patterns at r = {}: adjusted Rand index {:.3f} from exact fields "
+      "(the ceiling), {:.3f} decoded",
+      agreement_.round_trip.size(), settings_.resolution, mean(agreement_.round_trip),
+      mean(agreement_.decoded)));
+  context.found({"deepfracture_round_trip", agreement_.round_trip});
+  context.found({"deepfracture_decoded", agreement_.decoded});
+}
+
 /// Says how often another random code would have chosen another row: the ablation of the random
 /// codes. Takes nothing from the random numbers that the prediction is made with.
 void DeepFractureBody::note_other_rows(std::size_t row, std::span<const float> impulses,
@@ -57,6 +73,7 @@ void DeepFractureBody::note_other_rows(std::size_t row, std::span<const float> i
   for (int n = 0; n < kCodes; ++n) others += neural::nearest_row(model_, impulses, random) != row;
   context.note(fmt::format("deepfracture: {} of {} further random codes choose another row", others,
                            kCodes));
+  context.found({"deepfracture_other_rows", {static_cast<double>(others) / kCodes}});
 }
 
 VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& context) const {
@@ -80,14 +97,7 @@ VoxelGrid<float> DeepFractureBody::predict(const Impact& impact, Context& contex
 }
 
 std::vector<Piece> DeepFractureBody::fracture(const Impact& impact, Context& context) const {
-  if (!agreement_.round_trip.empty()) {
-    context.note(
-        fmt::format("deepfracture: {} training patterns at r = {}: adjusted Rand index {:.3f} from "
-                    "exact fields "
-                    "(the ceiling), {:.3f} decoded",
-                    agreement_.round_trip.size(), settings_.resolution, mean(agreement_.round_trip),
-                    mean(agreement_.decoded)));
-  }
+  report_training(context);
   VoxelGrid<float> field;
   {
     const auto stage = context.timer.stage("prediction");

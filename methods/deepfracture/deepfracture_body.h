@@ -30,6 +30,7 @@ class DeepFractureBody : public Breakable {
   const Agreement& agreement() const { return agreement_; }
 
  private:
+  void report_training(Context& context) const;
   void note_other_rows(std::size_t row, std::span<const float> impulses, Context& context) const;
   VoxelGrid<float> predict(const Impact& impact, Context& context) const;
 

@@ -2,6 +2,7 @@
 
 #include "metrics/summary.h"
 #include "reports/cell_groups.h"
+#include "reports/figure_of_table.h"
 
 namespace fracbench {
 
@@ -37,7 +38,15 @@ ReportSection FragmentCounts::render(const ReportInput& input) const {
                           number_or_nothing(quantile(minimum, 1))});
   }
   if (table.rows.empty()) return {};
-  return {.paragraphs = {}, .tables = {table}};
+  ReportSection section{.paragraphs = {}, .tables = {table}};
+  if (auto figure = figure_of_column(table, 3, input,
+                                     {.name = "fragment_counts",
+                                      .title = "Fragments per collision",
+                                      .x = {.label = "shape"},
+                                      .y = {.label = "fragments (mean)"}})) {
+    section.figures.push_back(std::move(*figure));
+  }
+  return section;
 }
 
 }  // namespace fracbench

@@ -10,6 +10,7 @@
 #include "metrics/stage_times.h"
 #include "metrics/summary.h"
 #include "reports/cell_groups.h"
+#include "reports/figure_of_table.h"
 #include "reports/published.h"
 
 namespace fracbench {
@@ -146,6 +147,21 @@ Table published_table(const std::vector<CellGroup>& groups) {
   return table;
 }
 
+std::optional<Figure> total_figure(const Table& stages, const ReportInput& input) {
+  Table totals;
+  for (const auto& row : stages.rows) {
+    if (std::get<std::string>(row[2]) != "total") continue;
+    const auto number = [&](int column) { return std::get<double>(row[column]); };
+    totals.rows.push_back({row[0], row[1], Estimate{number(4), number(6), number(7)}});
+  }
+  return figure_of_column(totals, 2, input,
+                          {.name = "total_times",
+                           .title = "Time of a collision",
+                           .notes = {"Mean, and from the least to the most."},
+                           .x = {.label = "shape"},
+                           .y = {.label = "wall-clock time [s]", .logarithmic = true}});
+}
+
 }  // namespace
 
 ReportItemInfo StageTimesTable::info() const { return {.name = "stage_times", .title = "Times"}; }
@@ -153,8 +169,9 @@ ReportItemInfo StageTimesTable::info() const { return {.name = "stage_times", .t
 ReportSection StageTimesTable::render(const ReportInput& input) const {
   const std::vector<CellGroup> groups = group_cells(input.cells);
   ReportSection section;
-  for (Table& table :
-       std::vector<Table>{stage_table(groups), machine_table(groups), published_table(groups)}) {
+  const Table stages = stage_table(groups);
+  if (auto figure = total_figure(stages, input)) section.figures.push_back(std::move(*figure));
+  for (Table& table : std::vector<Table>{stages, machine_table(groups), published_table(groups)}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
   return section;

@@ -220,6 +220,44 @@ Table curve_table(const std::vector<ShapeVolumes>& shapes) {
   return table;
 }
 
+/// A figure for each shape of the table of curves.
+std::vector<Figure> curve_figures(const Table& curves, const ReportInput& input) {
+  std::vector<Figure> figures;
+  std::string shape;
+  std::string method;
+  for (const auto& row : curves.rows) {
+    const auto& row_shape = std::get<std::string>(row[0]);
+    const auto& row_method = std::get<std::string>(row[1]);
+    if (figures.empty() || row_shape != shape) {
+      shape = row_shape;
+      method.clear();
+      figures.push_back({.name = "volume_curves_" + shape,
+                         .title = "Fragment volumes: " + shape,
+                         .notes = {"Share of the fragments above a volume; dashed: Mott's law with "
+                                   "the same mean above the cut."},
+                         .x = {.label = "volume [V_body = 10]", .logarithmic = true},
+                         .y = {.label = "share above", .logarithmic = true}});
+    }
+    std::vector<FigureSeries>& series = figures.back().series;
+    if (row_method != method) {
+      method = row_method;
+      const std::size_t colour = method_place(input, method);
+      series.push_back({.name = {}, .colour = colour, .dashed = true, .faint = true});
+      series.push_back({.name = method, .colour = colour});
+    }
+    const double volume = std::get<double>(row[2]);
+    FigureSeries& law = series[series.size() - 2];
+    // Below a thousandth the law is beyond what any sample shows.
+    if (const double share = std::get<double>(row[4]); share > 1e-3) {
+      law.x.push_back(volume);
+      law.y.push_back(share);
+    }
+    series.back().x.push_back(volume);
+    series.back().y.push_back(std::get<double>(row[3]));
+  }
+  return figures;
+}
+
 }  // namespace
 
 ReportItemInfo VolumeDistribution::info() const {
@@ -229,8 +267,10 @@ ReportItemInfo VolumeDistribution::info() const {
 ReportSection VolumeDistribution::render(const ReportInput& input) const {
   const std::vector<ShapeVolumes> shapes = volumes_by_shape(input);
   ReportSection section;
-  for (Table& table : std::vector<Table>{mott_table(shapes, input), method_table(shapes, input),
-                                         curve_table(shapes)}) {
+  const Table curves = curve_table(shapes);
+  section.figures = curve_figures(curves, input);
+  for (Table& table :
+       std::vector<Table>{mott_table(shapes, input), method_table(shapes, input), curves}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
   return section;
