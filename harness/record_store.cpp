@@ -66,6 +66,20 @@ std::vector<fs::path> list_records(const fs::path& folder) {
   return files;
 }
 
+Record read_record(const fs::path& folder, std::string_view key) {
+  Record record = to_record(read_hdf5(folder / "records" / fmt::format("{}.h5", key)));
+  if (record.key != key) throw DataError("is the record of another cell");
+  return record;
+}
+
+TriangleMesh read_target(const fs::path& folder, std::string_view digest) {
+  TriangleMesh mesh = get_mesh(read_hdf5(folder / "shapes" / fmt::format("{}.h5", digest)), "mesh");
+  Digest sum;
+  sum.add(mesh);
+  if (sum.hex() != digest) throw DataError("the mesh is not the one that its file's name promises");
+  return mesh;
+}
+
 RecordStore::RecordStore(fs::path folder) : folder_(std::move(folder)) {
   if (fs::exists(folder_) && !fs::is_directory(folder_)) make_folder(folder_);
   require_results_folder(folder_);
@@ -90,11 +104,7 @@ Claim RecordStore::wait_for_claim(std::string_view name) const {
 
 bool RecordStore::contains(std::string_view key) const { return fs::exists(record_file(key)); }
 
-Record RecordStore::read(std::string_view key) const {
-  Record record = to_record(read_hdf5(record_file(key)));
-  if (record.key != key) throw DataError("is the record of another cell");
-  return record;
-}
+Record RecordStore::read(std::string_view key) const { return read_record(folder_, key); }
 
 void RecordStore::write(const Claim&, const Record& record) const {
   const fs::path file = record_file(record.key);
@@ -124,11 +134,7 @@ void RecordStore::write_shape(const std::string& digest, const TriangleMesh& mes
 }
 
 TriangleMesh RecordStore::read_shape(const std::string& digest) const {
-  const TriangleMesh mesh = get_mesh(read_hdf5(folder_ / "shapes" / (digest + ".h5")), "mesh");
-  Digest sum;
-  sum.add(mesh);
-  if (sum.hex() != digest) throw DataError("the mesh is not the one that its file's name promises");
-  return mesh;
+  return read_target(folder_, digest);
 }
 
 void RecordStore::bind_suite(const nlohmann::ordered_json& values, std::string_view summary,

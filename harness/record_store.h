@@ -15,6 +15,14 @@ namespace fracbench {
 /// The records of a results folder, sorted; only looks.
 std::vector<std::filesystem::path> list_records(const std::filesystem::path& folder);
 
+/// The record of a key in a results folder, verified; only looks. Throws DataError where it is
+/// missing or damaged, or is not the record of this key.
+Record read_record(const std::filesystem::path& folder, std::string_view key);
+
+/// The mesh of a target in a results folder; only looks. Throws DataError where it is missing or
+/// damaged.
+TriangleMesh read_target(const std::filesystem::path& folder, std::string_view digest);
+
 /// A results folder:
 ///   suite.json            the suite that it belongs to
 ///   records/<key>.h5      one file per cell, whole or not there

@@ -1,14 +1,11 @@
 #include "harness/reference_agreement.h"
 
-#include <fmt/format.h>
-
 #include <map>
 #include <tuple>
 
 #include "core/adjusted_rand_index.h"
 #include "geometry/fragment_labels.h"
-#include "harness/data_file.h"
-#include "harness/record.h"
+#include "harness/record_store.h"
 
 namespace fracbench {
 
@@ -28,7 +25,7 @@ std::vector<LabelAgreement> agreement_with_reference(const std::filesystem::path
                                                      const std::vector<CellSummary>& cells,
                                                      const AgreementOptions& options) {
   const auto labels_of = [&](const CellSummary& cell) {
-    const Record record = to_record(read_hdf5(folder / "records" / fmt::format("{}.h5", cell.key)));
+    const Record record = read_record(folder, cell.key);
     return fragment_labels(record.outcome.scene.fragments,
                            unit_grid<std::int32_t>(options.resolution), options.threads)
         .values;

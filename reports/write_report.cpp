@@ -5,12 +5,12 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "reports/raw_data.h"
-#include "reports/report_items.h"
 #include "reports/svg.h"
 
 namespace fracbench {
 
-std::vector<ReportFile> render_report(const ReportInput& input) {
+std::vector<ReportFile> render_report(const ReportInput& input,
+                                      const std::vector<NamedSection>& sections) {
   std::vector<ReportFile> files;
   std::string text = fmt::format("# {}\n", input.title.empty() ? "Report" : input.title);
   for (const std::string& line : input.provenance) text += fmt::format("\n- {}", line);
@@ -25,10 +25,8 @@ std::vector<ReportFile> render_report(const ReportInput& input) {
   const auto add_csv = [&](const Table& table) {
     files.push_back({table.name + ".csv", to_csv(table)});
   };
-  for (const auto& item : report_items()) {
-    const ReportSection section = item->render(input);
-    if (section.empty()) continue;
-    text += fmt::format("\n## {}\n", item->info().title);
+  for (const auto& [item, section] : sections) {
+    text += fmt::format("\n## {}\n", item.title);
     for (const std::string& paragraph : section.paragraphs)
       text += fmt::format("\n{}\n", paragraph);
     for (const Figure& figure : section.figures) {
@@ -52,7 +50,9 @@ std::vector<ReportFile> render_report(const ReportInput& input) {
   return files;
 }
 
-std::filesystem::path write_report(const ReportInput& input, const std::filesystem::path& folder) {
+std::filesystem::path write_report(const ReportInput& input,
+                                   const std::vector<NamedSection>& sections,
+                                   const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
@@ -60,7 +60,7 @@ std::filesystem::path write_report(const ReportInput& input, const std::filesyst
                                  folder.string(), error.message()));
   }
   std::filesystem::path last;
-  for (const ReportFile& file : render_report(input)) {
+  for (const ReportFile& file : render_report(input, sections)) {
     last = folder / file.name;
     write_file_atomically(last, file.bytes);
   }

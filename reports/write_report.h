@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reports/report_item.h"
+#include "reports/sections.h"
 
 namespace fracbench {
 
@@ -14,12 +15,15 @@ struct ReportFile {
   std::string bytes;
 };
 
-/// report.md with the sections of all items, a CSV file for each table, and the raw data cells.csv
-/// and volumes.csv. The same input gives the same bytes.
-std::vector<ReportFile> render_report(const ReportInput& input);
+/// report.md with the sections, an SVG file for each figure, a CSV file for each table, and the raw
+/// data cells.csv and volumes.csv. The same input gives the same bytes.
+std::vector<ReportFile> render_report(const ReportInput& input,
+                                      const std::vector<NamedSection>& sections);
 
 /// Writes them below `folder`, which is made where it is missing; each file appears whole or not at
 /// all, report.md last. Returns its path. Throws InputError where it cannot be written.
-std::filesystem::path write_report(const ReportInput& input, const std::filesystem::path& folder);
+std::filesystem::path write_report(const ReportInput& input,
+                                   const std::vector<NamedSection>& sections,
+                                   const std::filesystem::path& folder);
 
 }  // namespace fracbench

@@ -5,10 +5,12 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/command_progress.h"
 #include "core/error.h"
 #include "harness/build_info.h"
 #include "harness/reference_agreement.h"
 #include "harness/summaries.h"
+#include "reports/page/write_page.h"
 #include "reports/write_report.h"
 
 namespace fracbench {
@@ -46,7 +48,15 @@ ReportInput input_from(const Results& results, const std::filesystem::path& fold
           .seed = results.suite.values.value("seed", std::uint64_t{1})};
 }
 
-ExitCode report(ReportArguments arguments) {
+/// That make the results and the report anew. A suite file by the name of the suite comes with the
+/// program, or lies where its user keeps it.
+std::vector<std::string> commands_of(const Results& results) {
+  const std::string folder = fmt::format("results/{}", results.suite.name);
+  return {fmt::format("fracbench run {} --out {}", results.suite.name, folder),
+          fmt::format("fracbench report {}", folder)};
+}
+
+ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
   if (arguments.out.empty()) arguments.out = arguments.results / "report";
   const Results results = read_results(arguments.results);
   for (const std::string& message : results.unreadable) {
@@ -57,20 +67,28 @@ ExitCode report(ReportArguments arguments) {
                arguments.results.string(), results.suite.name);
     return ExitCode::not_measured;
   }
-  const std::filesystem::path file =
-      write_report(input_from(results, arguments.results), arguments.out);
-  fmt::print("{}\n", file.string());
+  const ReportInput input = input_from(results, arguments.results);
+  const std::vector<NamedSection> sections = render_sections(input);
+  const std::filesystem::path text = write_report(input, sections, arguments.out);
+  CommandProgress progress;
+  const std::filesystem::path page =
+      write_page(input, sections, arguments.results, arguments.out,
+                 {.commands = commands_of(results), .stop = stop, .progress = &progress});
+  fmt::print("{}\n{}\n", text.string(), page.string());
   return results.unreadable.empty() ? ExitCode::good : ExitCode::not_measured;
 }
 
 }  // namespace
 
 void add_report_command(CLI::App& app, Action& chosen) {
-  auto* command = app.add_subcommand("report", "Tables of a results folder, as Markdown and CSV");
+  auto* command = app.add_subcommand("report",
+                                     "Tables, figures and fragments of a results folder: a page to "
+                                     "look at, Markdown, CSV and SVG");
   auto a = std::make_shared<ReportArguments>();
   command->add_option("results", a->results, "Results folder of 'fracbench run'")->required();
   command->add_option("--out", a->out, "Folder of the report [<results>/report]");
-  command->callback([&chosen, a] { chosen = [a](std::stop_token) { return report(*a); }; });
+  command->callback(
+      [&chosen, a] { chosen = [a](const std::stop_token& stop) { return report(*a, stop); }; });
 }
 
 }  // namespace fracbench

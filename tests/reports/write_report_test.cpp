@@ -29,9 +29,17 @@ fs::path fresh_folder(const std::string& name) {
   return folder;
 }
 
+std::vector<ReportFile> render_whole_report(const ReportInput& input) {
+  return render_report(input, render_sections(input));
+}
+
+fs::path write_whole_report(const ReportInput& input, const fs::path& folder) {
+  return write_report(input, render_sections(input), folder);
+}
+
 TEST(WriteReport, writes_the_text_and_every_table_that_it_names) {
   const fs::path folder = fresh_folder("all");
-  const fs::path report = write_report(two_methods(5, true), folder / "deep" / "er");
+  const fs::path report = write_whole_report(two_methods(5, true), folder / "deep" / "er");
   EXPECT_EQ(report, folder / "deep" / "er" / "report.md");
   const std::string text = bytes_of(report);
   EXPECT_TRUE(text.starts_with("# Two methods\n"));
@@ -60,7 +68,7 @@ TEST(WriteReport, writes_the_text_and_every_table_that_it_names) {
 TEST(WriteReport, raw_data_hold_every_value_and_every_fragment) {
   ReportInput input = two_methods(3, true);
   input.cells.push_back(failed_cell("fine", "squirrel", 9, CellStatus::timeout, "10 s, \"hard\""));
-  for (const ReportFile& file : render_report(input)) {
+  for (const ReportFile& file : render_whole_report(input)) {
     if (file.name == "volumes.csv") {
       EXPECT_EQ(parse_csv(file.bytes, "").size(), 1 + 6 * 17u);
     }
@@ -77,10 +85,10 @@ TEST(WriteReport, raw_data_hold_every_value_and_every_fragment) {
 
 TEST(WriteReport, same_input_and_seed_give_the_same_bytes) {
   ReportInput input = two_methods(6, true);
-  const auto first = render_report(input);
-  const auto second = render_report(input);
+  const auto first = render_whole_report(input);
+  const auto second = render_whole_report(input);
   input.seed += 1;
-  const auto reseeded = render_report(input);
+  const auto reseeded = render_whole_report(input);
   ASSERT_EQ(first.size(), second.size());
   bool differs = false;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -91,14 +99,14 @@ TEST(WriteReport, same_input_and_seed_give_the_same_bytes) {
 }
 
 TEST(WriteReport, has_no_numbers_that_are_none) {
-  for (const ReportFile& file : render_report(two_methods(2, true))) {
+  for (const ReportFile& file : render_whole_report(two_methods(2, true))) {
     EXPECT_FALSE(std::regex_search(file.bytes, std::regex(R"((^|[ ,|\[])-?(nan|inf)([ ,|\]]|$))")))
         << file.name;
   }
 }
 
 TEST(WriteReport, of_nothing_is_a_report_that_says_so) {
-  const auto files = render_report({});
+  const auto files = render_whole_report({});
   ASSERT_EQ(files.back().name, "report.md");
   EXPECT_NE(files.back().bytes.find("no cells"), std::string::npos);
 }
@@ -107,7 +115,7 @@ TEST(WriteReport, into_a_place_that_is_a_file_is_refused_with_its_name) {
   const fs::path folder = fresh_folder("file");
   std::ofstream(folder) << "x";
   try {
-    write_report(two_methods(2, true), folder);
+    write_whole_report(two_methods(2, true), folder);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(folder.string()), std::string::npos);

@@ -1,0 +1,92 @@
+#include "reports/page/write_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "harness/record_store.h"
+#include "reports/page/html_page.h"
+
+namespace fracbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The style and the script as they were built; empty for a script that was not.
+std::string asset(const char* name) {
+  std::ifstream stream(fs::path(FRACBENCH_PAGE_FOLDER) / name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool begins_with(const fs::path& file, const std::string& head) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(head.size(), '\0');
+  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == head;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("{}: the folder for the report cannot be made: {}",
+                                 folder.string(), error.message()));
+  }
+}
+
+/// Writes the files of all cells; returns their keys, sorted.
+std::vector<std::string> write_cells(const ReportInput& input, const fs::path& results,
+                                     const fs::path& folder, const PageFilesOptions& options) {
+  make_folder(folder);
+  std::map<std::string, TriangleMesh> targets;
+  std::vector<std::string> keys;
+  for (const CellSummary& cell : input.cells) {
+    if (options.stop.stop_requested()) throw Cancelled();
+    const fs::path file = folder / fmt::format("{}.js", cell.key);
+    const bool broken = cell.status == CellStatus::ok || cell.status == CellStatus::invalid;
+    if (broken || cell.status == CellStatus::unbroken) {
+      keys.push_back(cell.key);
+      if (!begins_with(file, cell_view_head(cell.key))) {
+        const Record record = read_record(results, cell.key);
+        TriangleMesh& target = targets[record.identity.shape_digest];
+        if (target.empty()) target = read_target(results, record.identity.shape_digest);
+        write_file_atomically(file, cell_view(record, target, options.view));
+      }
+    }
+    if (options.progress) {
+      const auto done = static_cast<double>(&cell - input.cells.data() + 1);
+      options.progress->update("cells for the viewer",
+                               done / static_cast<double>(input.cells.size()));
+    }
+  }
+  std::ranges::sort(keys);
+  return keys;
+}
+
+}  // namespace
+
+fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& sections,
+                    const fs::path& results, const fs::path& folder,
+                    const PageFilesOptions& options) {
+  make_folder(folder);
+  const std::string script = asset("page.js");
+  PageOptions page{.script = !script.empty(), .viewed = {}, .commands = options.commands};
+  if (page.script) {
+    page.viewed = write_cells(input, results, folder / "cells", options);
+    write_file_atomically(folder / "page.js", script);
+  }
+  write_file_atomically(folder / "page.css", asset("page.css"));
+  std::ifstream suite(results / "suite.json", std::ios::binary);
+  write_file_atomically(folder / "suite.json",
+                        std::string(std::istreambuf_iterator<char>(suite), {}));
+  const fs::path index = folder / "index.html";
+  write_file_atomically(index, html_page(input, sections, page));
+  return index;
+}
+
+}  // namespace fracbench

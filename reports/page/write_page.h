@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "reports/page/cell_view.h"
+#include "reports/sections.h"
+
+namespace fracbench {
+
+struct PageFilesOptions {
+  std::vector<std::string> commands = {};  ///< that make the results and this report
+  CellViewOptions view = {};
+  std::stop_token stop = {};
+  Progress* progress = nullptr;
+};
+
+/// Writes a page that opens from a disk without a network below `folder`, beside the tables and
+/// figures of write_report: index.html, page.css, page.js, suite.json and, for the viewer, a file
+/// cells/<key>.js for each cell, from the records of the results folder. Files of cells that are
+/// there already are kept: their names stand for what is in them. index.html comes last; returns
+/// its path. Throws InputError where it cannot be written, DataError for a record that cannot be
+/// read, Cancelled when it was asked to stop.
+std::filesystem::path write_page(const ReportInput& input,
+                                 const std::vector<NamedSection>& sections,
+                                 const std::filesystem::path& results,
+                                 const std::filesystem::path& folder,
+                                 const PageFilesOptions& options = {});
+
+}  // namespace fracbench
