@@ -12,7 +12,7 @@ if ! command -v apt-get >/dev/null || [ "$system" != "debian 12" ]; then
   {
     echo "This is '$system'; the set-up knows 'debian 12' only. Install what corresponds to these packages"
     wanted_packages | sed 's/^/  /'
-    echo "and call this again with FRACBENCH_SKIP_INSTALL=1. The shape 'bunny' comes from npm:"
+    echo "and call this again with FRACBENCH_SKIP_INSTALL=1. The shape 'bunny' and the viewer of reports come from npm:"
     echo "  npm install --prefix third_party && mkdir -p data &&"
     echo "  node scripts/make_bunny.mjs third_party/node_modules data/bunny.obj"
   } >&2
@@ -50,9 +50,20 @@ if [ ${#missing[@]} -gt 0 ]; then
   }
 fi
 
-if [ ! -s data/bunny.obj ]; then
+npm_packages_are_there() {
+  node -e 'const fs = require("fs"), wanted = require("./third_party/package.json").dependencies;
+    for (const [name, version] of Object.entries(wanted)) {
+      const file = `third_party/node_modules/${name}/package.json`;
+      if (!fs.existsSync(file) || JSON.parse(fs.readFileSync(file)).version !== version) process.exit(1);
+    }'
+}
+
+if ! npm_packages_are_there; then
   say "installing npm packages: $(node -p 'Object.entries(require("./third_party/package.json").dependencies).map(d => d.join(" ")).join(", ")')"
   npm install --prefix third_party --no-audit --no-fund --no-package-lock --silent
+fi
+
+if [ ! -s data/bunny.obj ]; then
   mkdir -p data
   node scripts/make_bunny.mjs third_party/node_modules data/bunny.obj
 fi
