@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,42 @@ class GlbBuilder {
     }
     scene_.push_back(nodes_.size());
     nodes_.push_back(std::move(node));
+    if (!part.motion.seconds.empty()) moving_.push_back({nodes_.size() - 1, &part.motion});
+  }
+
+  /// After the last part: the animation of those that move.
+  void animate() {
+    float begin = std::numeric_limits<float>::infinity();
+    float end = -begin;
+    for (const auto& [node, motion] : moving_) {
+      begin = std::min(begin, motion->seconds.front());
+      end = std::max(end, motion->seconds.back());
+    }
+    for (const auto& [node, motion] : moving_) {
+      const std::size_t times = add_times(motion->seconds);
+      std::vector<Eigen::Vector3f> places;
+      std::vector<Eigen::Vector4f> turns;
+      for (const Pose& pose : motion->poses) {
+        places.push_back(pose.position.cast<float>());
+        Eigen::Vector4f turn = pose.orientation.coeffs().cast<float>().normalized();
+        // Of the two signs the one nearer to the last turn: viewers go straight from one to the
+        // next.
+        if (!turns.empty() && turn.dot(turns.back()) < 0) turn = -turn;
+        turns.push_back(turn);
+      }
+      add_channel(node, "translation", times, add_vectors(places, false, 0), "LINEAR");
+      add_channel(node, "rotation", times, add_turns(turns), "LINEAR");
+      std::vector<float> changes;
+      std::vector<Eigen::Vector3f> scales;
+      const auto show = [&](float when, float size) {
+        changes.push_back(when);
+        scales.push_back(Eigen::Vector3f::Constant(size));
+      };
+      if (motion->seconds.front() > begin) show(begin, 0);
+      show(motion->seconds.front(), 1);
+      if (motion->seconds.back() < end) show(after(motion->seconds), 0);
+      add_channel(node, "scale", add_times(changes), add_vectors(scales, false, 0), "STEP");
+    }
   }
 
   std::string bytes() const {
@@ -55,6 +92,10 @@ class GlbBuilder {
       root["nodes"] = nodes_;
     }
     if (!meshes_.empty()) {
+      if (!channels_.empty()) {
+        root["animations"] =
+            Json::array({{{"name", "motion"}, {"channels", channels_}, {"samplers", samplers_}}});
+      }
       root["meshes"] = meshes_;
       root["materials"] = materials_;
       root["accessors"] = accessors_;
@@ -90,6 +131,12 @@ class GlbBuilder {
   }
 
  private:
+  /// When a part is gone: a frame after its last pose.
+  static float after(const std::vector<float>& seconds) {
+    const std::size_t n = seconds.size();
+    return seconds.back() + (n > 1 ? seconds[n - 1] - seconds[n - 2] : 0.01F);
+  }
+
   int add_material(const std::string& name, const Vec3& srgb, double roughness) {
     const Vec3 color = linear_color(srgb);
     materials_.push_back({{"name", name},
@@ -100,16 +147,44 @@ class GlbBuilder {
     return static_cast<int>(materials_.size()) - 1;
   }
 
+  /// `target` 0: not for drawing.
   std::size_t add_view(const void* data, std::size_t size, int target) {
-    views_.push_back(
-        {{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", size}, {"target", target}});
+    views_.push_back({{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", size}});
+    if (target != 0) views_.back()["target"] = target;
     data_.append(static_cast<const char*>(data), size);  // always a multiple of four
     return views_.size() - 1;
   }
 
-  std::size_t add_vectors(const std::vector<Eigen::Vector3f>& vectors, bool with_bounds) {
+  std::size_t add_times(const std::vector<float>& seconds) {
+    accessors_.push_back({{"bufferView", add_view(seconds.data(), 4 * seconds.size(), 0)},
+                          {"componentType", float_components},
+                          {"count", seconds.size()},
+                          {"type", "SCALAR"},
+                          {"min", {seconds.front()}},
+                          {"max", {seconds.back()}}});
+    return accessors_.size() - 1;
+  }
+
+  std::size_t add_turns(const std::vector<Eigen::Vector4f>& turns) {
+    static_assert(sizeof(Eigen::Vector4f) == 16);
+    accessors_.push_back({{"bufferView", add_view(turns.data(), 16 * turns.size(), 0)},
+                          {"componentType", float_components},
+                          {"count", turns.size()},
+                          {"type", "VEC4"}});
+    return accessors_.size() - 1;
+  }
+
+  void add_channel(std::size_t node, const char* path, std::size_t times, std::size_t values,
+                   const char* interpolation) {
+    channels_.push_back(
+        {{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});
+    samplers_.push_back({{"input", times}, {"output", values}, {"interpolation", interpolation}});
+  }
+
+  std::size_t add_vectors(const std::vector<Eigen::Vector3f>& vectors, bool with_bounds,
+                          int target = vertex_buffer) {
     static_assert(sizeof(Eigen::Vector3f) == 12);
-    Json accessor = {{"bufferView", add_view(vectors.data(), 12 * vectors.size(), vertex_buffer)},
+    Json accessor = {{"bufferView", add_view(vectors.data(), 12 * vectors.size(), target)},
                      {"componentType", float_components},
                      {"count", vectors.size()},
                      {"type", "VEC3"}};
@@ -140,7 +215,9 @@ class GlbBuilder {
   }
 
   Json scene_ = Json::array(), nodes_ = Json::array(), meshes_ = Json::array(),
-       materials_ = Json::array(), accessors_ = Json::array(), views_ = Json::array();
+       materials_ = Json::array(), accessors_ = Json::array(), views_ = Json::array(),
+       channels_ = Json::array(), samplers_ = Json::array();
+  std::vector<std::pair<std::size_t, const Motion*>> moving_;  // nodes
   std::string data_;
   int fracture_material_ = -1;
 };
@@ -150,6 +227,7 @@ class GlbBuilder {
 std::string glb_bytes(std::span<const Part> parts) {
   GlbBuilder builder;
   for (std::size_t p = 0; p < parts.size(); ++p) builder.add(parts[p], p);
+  builder.animate();
   return builder.bytes();
 }
 
