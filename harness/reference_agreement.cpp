@@ -1,9 +1,10 @@
 #include "harness/reference_agreement.h"
 
 #include <map>
+#include <mutex>
 #include <tuple>
 
-#include "core/adjusted_rand_index.h"
+#include "core/parallel.h"
 #include "geometry/fragment_labels.h"
 #include "harness/record_store.h"
 
@@ -11,7 +12,6 @@ namespace fracbench {
 
 namespace {
 
-using Labels = std::vector<std::int32_t>;
 /// Shape, then the impact.
 using Impacted = std::tuple<std::string, std::string, std::string, int>;
 
@@ -19,46 +19,87 @@ Impacted impact_of(const CellSummary& cell) {
   return {cell.shape, cell.family, cell.scenario, cell.repeat};
 }
 
+/// One fracture, ready to be compared.
+struct Fracture {
+  Fragments fragments;
+  std::vector<std::int32_t> labels;
+};
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& folder, int resolution)
+      : folder_(folder), resolution_(resolution) {}
+
+  Fracture operator()(const CellSummary& cell) {
+    Fracture fracture;
+    {
+      const std::scoped_lock one_at_a_time(mutex_);  // HDF5 knows no threads
+      fracture.fragments = read_record(folder_, cell.key).outcome.scene.fragments;
+    }
+    fracture.labels =
+        fragment_labels(fracture.fragments, unit_grid<std::int32_t>(resolution_), 1).values;
+    return fracture;
+  }
+
+ private:
+  const std::filesystem::path& folder_;
+  int resolution_;
+  std::mutex mutex_;
+};
+
+ReferenceAgreement compare(const CellSummary& cell, bool other_impact, const Fracture& reference,
+                           const Fracture& fracture, const AgreementOptions& options) {
+  Random random(derive_seed(cell.seed, {"agreement with the reference"}));
+  return {.shape = cell.shape,
+          .label = cell.label,
+          .family = cell.family,
+          .scenario = cell.scenario,
+          .repeat = cell.repeat,
+          .other_impact = other_impact,
+          .partition = partition_agreement(reference.labels, fracture.labels),
+          .surfaces = fracture_surface_agreement(reference.fragments, fracture.fragments,
+                                                 options.surface_samples, random),
+          .fragment_chamfer = fragment_chamfer(reference.fragments, fracture.fragments,
+                                               options.fragment_samples, random)};
+}
+
 }  // namespace
 
-std::vector<LabelAgreement> agreement_with_reference(const std::filesystem::path& folder,
-                                                     const std::vector<CellSummary>& cells,
-                                                     const AgreementOptions& options) {
-  const auto labels_of = [&](const CellSummary& cell) {
-    const Record record = read_record(folder, cell.key);
-    return fragment_labels(record.outcome.scene.fragments,
-                           unit_grid<std::int32_t>(options.resolution), options.threads)
-        .values;
-  };
-  std::map<Impacted, Labels> reference;
+std::vector<ReferenceAgreement> agreement_with_reference(const std::filesystem::path& folder,
+                                                         const std::vector<CellSummary>& cells,
+                                                         const AgreementOptions& options) {
+  Reader read(folder, options.resolution);
+  std::map<Impacted, Fracture> reference;
+  std::vector<const CellSummary*> broken;
   for (const CellSummary& cell : cells) {
-    if (cell.status != CellStatus::ok || cell.label != options.reference) continue;
-    reference.emplace(impact_of(cell), labels_of(cell));
+    if (cell.status != CellStatus::ok) continue;
+    broken.push_back(&cell);
+    if (cell.label == options.reference) reference.try_emplace(impact_of(cell));
   }
-  std::vector<LabelAgreement> result;
-  const auto add = [&](const CellSummary& cell, bool other_impact, const Labels& a,
-                       const Labels& b) {
-    result.push_back({.shape = cell.shape,
-                      .label = cell.label,
-                      .family = cell.family,
-                      .scenario = cell.scenario,
-                      .repeat = cell.repeat,
-                      .other_impact = other_impact,
-                      .index = adjusted_rand_index(a, b)});
-  };
-  for (const CellSummary& cell : cells) {
+  parallel_for(broken.size(), options.threads, [&](std::size_t i) {
+    if (broken[i]->label == options.reference) {
+      reference.at(impact_of(*broken[i])) = read(*broken[i]);
+    }
+  });
+  std::vector<std::optional<ReferenceAgreement>> found(broken.size());
+  parallel_for(broken.size(), options.threads, [&](std::size_t i) {
+    const CellSummary& cell = *broken[i];
     const auto same = reference.find(impact_of(cell));
-    if (cell.status != CellStatus::ok || same == reference.end()) continue;
+    if (same == reference.end()) return;
     if (cell.label != options.reference) {
-      add(cell, false, same->second, labels_of(cell));
-      continue;
+      found[i] = compare(cell, false, same->second, read(cell), options);
+      return;
     }
     // The next impact on this shape, in a ring.
     auto next = std::next(same);
     if (next == reference.end() || std::get<0>(next->first) != cell.shape) {
       next = reference.lower_bound({cell.shape, "", "", 0});
     }
-    if (next != same) add(cell, true, same->second, next->second);
+    if (next != same) found[i] = compare(cell, true, same->second, next->second, options);
+  });
+  std::vector<ReferenceAgreement> result;
+  for (auto& agreement : found) {
+    if (agreement) result.push_back(std::move(*agreement));
   }
   return result;
 }

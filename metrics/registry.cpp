@@ -3,6 +3,7 @@
 #include "metrics/fracture_normals.h"
 #include "metrics/fragment_count.h"
 #include "metrics/fragment_volumes.h"
+#include "metrics/locality.h"
 #include "metrics/peak_memory.h"
 #include "metrics/roughness.h"
 #include "metrics/stage_times.h"
@@ -18,6 +19,7 @@ const std::vector<std::unique_ptr<Metric>>& metrics() {
     list.push_back(std::make_unique<FragmentVolumes>());
     list.push_back(std::make_unique<FractureNormals>());
     list.push_back(std::make_unique<Roughness>());
+    list.push_back(std::make_unique<Locality>());
     list.push_back(std::make_unique<Validity>());
     list.push_back(std::make_unique<SurfaceRetention>());
     list.push_back(std::make_unique<StageTimes>());

@@ -16,7 +16,7 @@ namespace fracbench {
 struct ReportInput {
   std::string title = {};  ///< such as the suite's name
   std::vector<CellSummary> cells = {};
-  std::vector<LabelAgreement> agreements = {};  ///< of the cells with the reference method
+  std::vector<ReferenceAgreement> agreements = {};  ///< of the cells with the reference method
   /// Lines about where the results come from (program, machine, suite), shown under the title.
   std::vector<std::string> provenance = {};
   BootstrapOptions bootstrap = {};

@@ -87,12 +87,12 @@ std::string section_html(const NamedSection& named) {
 /// The agreement of a cell with the reference, where it has one.
 std::map<std::string, double> agreements_by_cell(const ReportInput& input) {
   std::map<std::string, double> result;
-  for (const LabelAgreement& pair : input.agreements) {
+  for (const ReferenceAgreement& pair : input.agreements) {
     if (pair.other_impact) continue;
     for (const CellSummary& cell : input.cells) {
       if (cell.shape == pair.shape && cell.label == pair.label && cell.family == pair.family &&
           cell.scenario == pair.scenario && cell.repeat == pair.repeat) {
-        result[cell.key] = pair.index;
+        result[cell.key] = pair.partition.adjusted_rand;
       }
     }
   }

@@ -30,11 +30,11 @@ TEST_F(ReferenceAgreementTest,
        ComparesEveryBrokenCellUnderTheSameImpactAndTheReferenceWithItsNext) {
   const auto pairs = agreement_with_reference(folder, cells, {.reference = "halves"});
   std::map<std::string, int> floors, others;
-  for (const LabelAgreement& pair : pairs) {
+  for (const ReferenceAgreement& pair : pairs) {
     ++(pair.other_impact ? floors : others)[pair.shape];
     EXPECT_EQ(pair.label, pair.other_impact ? "halves" : "halves-wide");
-    EXPECT_LE(pair.index, 1);
-    EXPECT_LT(pair.index, 0.999);  // planes drawn from other seeds
+    EXPECT_LE(pair.partition.adjusted_rand, 1);
+    EXPECT_LT(pair.partition.adjusted_rand, 0.999);  // planes drawn from other seeds
   }
   EXPECT_EQ(floors, (std::map<std::string, int>{{"box", 3}, {"slab", 3}}));
   EXPECT_EQ(others, floors);
@@ -50,10 +50,10 @@ TEST_F(ReferenceAgreementTest, TheSameFragmentsAgreeInFull) {
     twice.back().label = "again";
   }
   int compared = 0;
-  for (const LabelAgreement& pair :
+  for (const ReferenceAgreement& pair :
        agreement_with_reference(folder, twice, {.reference = "halves"})) {
     if (pair.other_impact) continue;
-    EXPECT_EQ(pair.index, 1);
+    EXPECT_EQ(pair.partition.adjusted_rand, 1);
     ++compared;
   }
   EXPECT_EQ(compared, 6);

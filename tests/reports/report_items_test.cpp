@@ -168,14 +168,14 @@ TEST(LabelAgreementItem, PoolsByShapeAndMethodAndTellsTheFloorApart) {
                                 .label = "cvd",
                                 .family = "single",
                                 .scenario = "single-0000",
-                                .index = index});
+                                .partition = {.adjusted_rand = index}});
   }
   input.agreements.push_back({.shape = "pot",
                               .label = "bem",
                               .family = "single",
                               .scenario = "single-0000",
                               .other_impact = true,
-                              .index = 0.1});
+                              .partition = {.adjusted_rand = 0.1}});
   const Table shown = table(section(input, "label_agreement"), "label_agreement");
   ASSERT_EQ(shown.rows.size(), 2u);
   EXPECT_DOUBLE_EQ(number(at(shown, 0, "mean")), 0.3);

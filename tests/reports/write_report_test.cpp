@@ -1,5 +1,6 @@
 #include "reports/write_report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -54,7 +55,12 @@ TEST(WriteReport, writes_the_text_and_every_table_that_it_names) {
   std::set<std::string> present;
   for (const auto& entry : fs::directory_iterator(report.parent_path())) {
     if (entry.path().extension() == ".csv") present.insert(entry.path().filename());
-    EXPECT_TRUE(entry.path().extension() == ".csv" || entry.path() == report) << entry.path();
+    const std::string name = entry.path().filename();
+    if (name.ends_with(".svg")) {
+      EXPECT_NE(text.find(fmt::format("]({})", name)), std::string::npos) << name;
+    } else {
+      EXPECT_TRUE(name.ends_with(".csv") || entry.path() == report) << name;
+    }
   }
   EXPECT_EQ(linked, present);
   for (const std::string& name : present) {
