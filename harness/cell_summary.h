@@ -15,6 +15,7 @@ struct CellSummary {
   std::string key;     ///< of the record, 64 hexadecimal digits
   std::string method;  ///< name in the registry
   std::string label;   ///< name in the suite; the same as `method` unless the suite says otherwise
+  std::string method_options;  ///< JSON, defaults included
   std::string shape;
   std::string family;    ///< of the scenario
   std::string scenario;  ///< unique within its family

@@ -197,6 +197,7 @@ CellSummary to_summary(const DataTree& tree) {
   CellSummary summary{.key = tree.text("key"),
                       .method = identity.method,
                       .label = identity.label,
+                      .method_options = identity.method_options,
                       .shape = identity.shape,
                       .family = identity.family,
                       .scenario = identity.scenario,

@@ -9,9 +9,10 @@ ReportItemInfo ErrataTable::info() const {
 }
 
 ReportSection ErrataTable::render(const ReportInput&) const {
-  Table table{.name = "errata", .title = "Errata", .columns = {{"place"}, {"finding"}, {"here"}}};
+  Table table{
+      .name = "errata", .title = "Errata", .columns = {{"name"}, {"place"}, {"finding"}, {"here"}}};
   for (const Erratum& erratum : published_errata()) {
-    table.rows.push_back({erratum.place, erratum.finding, erratum.consequence});
+    table.rows.push_back({erratum.name, erratum.place, erratum.finding, erratum.consequence});
   }
   return {.paragraphs = {}, .tables = {table}};
 }

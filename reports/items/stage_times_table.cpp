@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/sum.h"
@@ -11,7 +10,6 @@
 #include "metrics/summary.h"
 #include "reports/cell_groups.h"
 #include "reports/figure_of_table.h"
-#include "reports/published.h"
 
 namespace fracbench {
 namespace {
@@ -102,51 +100,6 @@ Table machine_table(const std::vector<CellGroup>& groups) {
   return table;
 }
 
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-Table published_table(const std::vector<CellGroup>& groups) {
-  Table table{.name = "published_times",
-              .title = "Published times beside our own",
-              .notes = {"Absolute times on other hardware cannot be compared: only ratios between "
-                        "methods on one machine can. Measured: mean of the stage of that name, "
-                        "where the method was run on a shape of that name, which need not be the "
-                        "paper's mesh."},
-              .columns = {{"shape"},
-                          {"method"},
-                          {"r"},
-                          {"stage"},
-                          {"source"},
-                          {"printed"},
-                          {"published", "s"},
-                          {"measured", "s"},
-                          {"verdict"}}};
-  std::vector<std::string> shapes;
-  for (const CellGroup& group : groups) {
-    if (std::ranges::find(shapes, group.shape) == shapes.end()) shapes.push_back(group.shape);
-  }
-  for (const std::string& shape : shapes) {
-    for (const PublishedTime& time : published_times()) {
-      if (time.shape != lower_case(shape)) continue;
-      std::optional<double> measured;
-      for (const CellGroup& group : groups) {
-        if (group.shape != shape || group.label != time.method) continue;
-        const std::vector<CellRef> cells = broken_cells(group.cells);
-        const std::vector<std::string> stages = stages_of(cells);
-        if (cells.empty() || std::ranges::find(stages, time.stage) == stages.end()) continue;
-        measured = summarize(seconds_of(cells, time.stage)).mean;
-      }
-      table.rows.push_back({shape, time.method, time.resolution, time.stage,
-                            fmt::format("{}, {}, {}", time.table, time.row, time.column),
-                            time.printed, time.seconds, number_or_nothing(measured),
-                            std::string("not-comparable")});
-    }
-  }
-  return table;
-}
-
 std::optional<Figure> total_figure(const Table& stages, const ReportInput& input) {
   Table totals;
   for (const auto& row : stages.rows) {
@@ -171,7 +124,7 @@ ReportSection StageTimesTable::render(const ReportInput& input) const {
   ReportSection section;
   const Table stages = stage_table(groups);
   if (auto figure = total_figure(stages, input)) section.figures.push_back(std::move(*figure));
-  for (Table& table : std::vector<Table>{stages, machine_table(groups), published_table(groups)}) {
+  for (Table& table : std::vector<Table>{stages, machine_table(groups)}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
   return section;

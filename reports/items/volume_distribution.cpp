@@ -12,46 +12,12 @@
 #include "metrics/mott.h"
 #include "metrics/summary.h"
 #include "reports/cell_groups.h"
+#include "reports/shape_volumes.h"
 
 namespace fracbench {
 namespace {
 
 constexpr const char* kVolumeUnit = "V_body / 10";
-
-// The volumes of all fragments of these cells that are above the cut.
-std::vector<double> volumes_above(std::span<const CellRef> cells, double cut) {
-  std::vector<double> volumes;
-  for (const CellSummary& cell : cells) {
-    const std::vector<double> above = truncated(series_of(cell, "fragment_volume"), cut);
-    volumes.insert(volumes.end(), above.begin(), above.end());
-  }
-  return volumes;
-}
-
-// The methods of one shape, restricted to the cells that broke, and the volume that they share.
-struct ShapeVolumes {
-  std::string shape;
-  std::vector<CellGroup> methods;
-  double cut = 0;  // V_body / 10
-};
-
-std::vector<ShapeVolumes> volumes_by_shape(const ReportInput& input) {
-  std::vector<ShapeVolumes> result;
-  for (CellGroup& group : group_cells(input.cells)) {
-    group.cells = broken_cells(group.cells);
-    std::erase_if(group.cells, [](const CellSummary& cell) {
-      return series_of(cell, "fragment_volume").empty();
-    });
-    if (group.cells.empty()) continue;
-    if (result.empty() || result.back().shape != group.shape) result.push_back({group.shape, {}});
-    ShapeVolumes& shape = result.back();
-    for (const double minimum : values_of(group.cells, "minimum_volume_fraction")) {
-      shape.cut = std::max(shape.cut, kParentVolume * minimum);
-    }
-    shape.methods.push_back(std::move(group));
-  }
-  return result;
-}
 
 using Distance = std::function<double(const std::vector<double>& volumes, const Mott& law)>;
 

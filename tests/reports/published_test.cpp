@@ -13,7 +13,11 @@ namespace {
 std::map<std::tuple<std::string, std::string, std::string>, double> seconds() {
   std::map<std::tuple<std::string, std::string, std::string>, double> result;
   for (const PublishedTime& time : published_times()) {
-    EXPECT_TRUE(result.try_emplace({time.shape, time.resolution, time.stage}, time.seconds).second);
+    EXPECT_TRUE(
+        result
+            .try_emplace({time.shape, std::to_string(time.stage.resolution), time.stage.stage},
+                         time.seconds)
+            .second);
   }
   return result;
 }
@@ -33,7 +37,7 @@ TEST(PublishedTimes, obey_the_sums_that_hold_in_the_table) {
       EXPECT_NEAR(at("reconstruction") + at("others"), at("total"), 0.051) << shape << r;
     }
   }
-  EXPECT_NEAR(table.at({"squirrel", "", "simulation"}), 15.5 * 60, 1e-9);
+  EXPECT_NEAR(table.at({"squirrel", "0", "simulation"}), 15.5 * 60, 1e-9);
 }
 
 TEST(PublishedErrata, have_names_and_consequences) {
@@ -44,6 +48,34 @@ TEST(PublishedErrata, have_names_and_consequences) {
   }
   EXPECT_EQ(names.size(), 8u);
   EXPECT_TRUE(names.contains("mott-formula"));
+}
+
+TEST(PublishedErrata, that_values_name_are_there) {
+  std::set<std::string> names{""};
+  for (const Erratum& erratum : published_errata()) names.insert(erratum.name);
+  for (const PublishedTime& time : published_times()) EXPECT_TRUE(names.contains(time.erratum));
+  for (const PublishedRatio& r : published_ratios()) EXPECT_TRUE(names.contains(r.erratum));
+  for (const PublishedMethod& m : published_methods()) EXPECT_TRUE(names.contains(m.erratum));
+  for (const Claim& claim : published_claims().list) EXPECT_TRUE(names.contains(claim.erratum));
+}
+
+TEST(PublishedRatios, follow_from_the_times) {
+  for (const PublishedRatio& ratio : published_ratios()) {
+    for (const char* shape : {"pot", "bunny", "base", "squirrel", "mean"}) {
+      EXPECT_TRUE(published_value(ratio, shape)) << ratio.name << shape;
+    }
+    EXPECT_FALSE(published_value(ratio, "teapot"));
+  }
+  // 15.5 min over 8.72 s.
+  EXPECT_NEAR(published_value(published_ratios().front(), "squirrel").value(), 106.65, 0.01);
+}
+
+TEST(PublishedMethods, are_the_five_of_table_1) {
+  const auto methods = published_methods();
+  ASSERT_EQ(methods.size(), 5u);
+  EXPECT_EQ(methods[0].method, "bem");
+  EXPECT_FALSE(methods[0].retains_surface);
+  EXPECT_TRUE(methods[4].method.empty());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "synthetic_cells.h"
@@ -198,12 +199,91 @@ TEST(StageTimesItem, adds_up_and_stands_beside_what_was_published) {
   const Table machine = table(times, "machine");
   EXPECT_EQ(number(at(machine, 0, "cells that do not add up")), 1);
   EXPECT_EQ(number(at(machine, 1, "cells that do not add up")), 0);
-  const Table published = table(times, "published_times");
+}
+
+TEST(PaperTablesItem, stands_beside_what_was_published) {
+  ReportInput input = two_methods(3, false);
+  for (CellSummary& cell : input.cells) {
+    if (cell.label == "coarse") {
+      cell.label = cell.method = "bem";
+      cell.stages.push_back({"simulation", 8});
+    } else {
+      cell.label = cell.method = "deepfracture";
+      cell.method_options = R"({"resolution": 0, "resolutions": [64, 128]})";
+      cell.stages = {{"prediction", 0.01}, {"segmentation", 0.025}, {"boolean", 0.04}};
+    }
+  }
+  const ReportSection paper = section(input, "paper_tables");
+  const Table published = table(paper, "published_times");
   EXPECT_EQ(published.rows.size(), 17u);  // of squirrel
   EXPECT_EQ(at(published, 0, "printed"), TableCell(std::string("15.5 min")));
-  EXPECT_NEAR(number(at(published, 0, "measured")), 0.01, 1e-15);
-  EXPECT_EQ(at(published, 1, "measured"), TableCell());
+  EXPECT_NEAR(number(at(published, 0, "measured")), 8, 1e-15);
   EXPECT_EQ(at(published, 0, "verdict"), TableCell(std::string("not-comparable")));
+  for (std::size_t row = 0; row < published.rows.size(); ++row) {
+    if (at(published, row, "r") != TableCell(std::int64_t{256})) continue;
+    EXPECT_EQ(at(published, row, "measured"), TableCell()) << "r = 256 was not run";
+  }
+  // 8 / 0.075 = 106.67, published 106.65: the same to two digits.
+  const Table ratios = table(paper, "published_ratios");
+  EXPECT_EQ(at(ratios, 0, "verdict"), TableCell(std::string("match")));
+  // 0.025 / 0.04 against 2.49 / 6.01.
+  EXPECT_EQ(at(ratios, 1, "verdict"), TableCell(std::string("mismatch")));
+  EXPECT_EQ(at(ratios, 3, "verdict"), TableCell(std::string("not-comparable")));
+  const Table kinds = table(paper, "table_1");
+  EXPECT_EQ(at(kinds, 1, "property"), TableCell(std::string("retains the surface")));
+  EXPECT_EQ(at(kinds, 1, "verdict"), TableCell(std::string("mismatch")));
+}
+
+TEST(ClaimsItem, judges_what_is_nearer_to_the_reference) {
+  // The subject has the fragments of the reference, the other one those of another law.
+  ReportInput input = two_methods(8, true);
+  std::vector<CellSummary> cells;
+  for (const CellSummary& cell : input.cells) {
+    const bool coarse = cell.label == "coarse";
+    for (const char* label : {"bem", "deepfracture", "modes"}) {
+      if ((std::string_view(label) == "modes") != coarse) continue;
+      cells.push_back(cell);
+      cells.back().label = cells.back().method = label;
+    }
+  }
+  input.cells = cells;
+  for (const CellSummary& cell : cells) {
+    if (cell.label == "bem") continue;
+    input.agreements.push_back({.shape = cell.shape,
+                                .label = cell.label,
+                                .family = cell.family,
+                                .scenario = cell.scenario,
+                                .partition = {.adjusted_rand = cell.label == "modes" ? 0.9 : 0.1}});
+  }
+  const Table claims = table(section(input, "claims"), "claims");
+  std::map<std::string, std::string> verdicts;
+  for (std::size_t row = 0; row < claims.rows.size(); ++row) {
+    if (at(claims, row, "beside") != TableCell(std::string("modes"))) continue;
+    verdicts[std::get<std::string>(at(claims, row, "claim"))] =
+        std::get<std::string>(at(claims, row, "verdict"));
+  }
+  EXPECT_EQ(verdicts["volumes-nearest"], "holds");
+  EXPECT_EQ(verdicts["count-nearest"], "holds");
+  EXPECT_EQ(verdicts["agrees-with-bem"], "fails");
+}
+
+TEST(TrainingItem, tells_how_much_of_the_ceiling_was_reached) {
+  ReportInput input = two_methods(2, false);
+  EXPECT_TRUE(section(input, "training").tables.empty());
+  CellSummary& cell = input.cells[1];
+  cell.series.push_back({"" + cell.method + "_training_loss", {0.5, 0.1, 0.02}, ""});
+  cell.series.push_back({"" + cell.method + "_round_trip", {1, 0.8}, ""});
+  cell.series.push_back({"" + cell.method + "_decoded", {0.95, 0.4}, ""});
+  cell.series.push_back({"" + cell.method + "_other_rows", {0.25}, ""});
+  const ReportSection shown = section(input, "training");
+  const Table learned = table(shown, "training");
+  ASSERT_EQ(learned.rows.size(), 1u);
+  EXPECT_EQ(number(at(learned, 0, "last loss")), 0.02);
+  EXPECT_NEAR(number(at(learned, 0, "decoded, of the ceiling")), 75, 1e-12);
+  EXPECT_EQ(number(at(learned, 0, "at 0.9 of their own ceiling")), 1);
+  EXPECT_EQ(number(at(learned, 0, "codes that choose otherwise")), 25);
+  ASSERT_EQ(shown.figures.size(), 1u);
+  EXPECT_EQ(shown.figures[0].series[0].y, (std::vector<double>{0.5, 0.1, 0.02}));
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+#include "reports/shape_volumes.h"
+
+#include <algorithm>
+
+#include "metrics/distribution_distance.h"
+#include "metrics/fragment_volumes.h"
+
+namespace fracbench {
+
+std::vector<ShapeVolumes> volumes_by_shape(const ReportInput& input) {
+  std::vector<ShapeVolumes> result;
+  for (CellGroup& group : group_cells(input.cells)) {
+    group.cells = broken_cells(group.cells);
+    std::erase_if(group.cells, [](const CellSummary& cell) {
+      return series_of(cell, "fragment_volume").empty();
+    });
+    if (group.cells.empty()) continue;
+    if (result.empty() || result.back().shape != group.shape) result.push_back({group.shape, {}});
+    ShapeVolumes& shape = result.back();
+    for (const double minimum : values_of(group.cells, "minimum_volume_fraction")) {
+      shape.cut = std::max(shape.cut, kParentVolume * minimum);
+    }
+    shape.methods.push_back(std::move(group));
+  }
+  return result;
+}
+
+std::vector<double> volumes_above(std::span<const CellRef> cells, double cut) {
+  std::vector<double> volumes;
+  for (const CellSummary& cell : cells) {
+    const std::vector<double> above = truncated(series_of(cell, "fragment_volume"), cut);
+    volumes.insert(volumes.end(), above.begin(), above.end());
+  }
+  return volumes;
+}
+
+}  // namespace fracbench
