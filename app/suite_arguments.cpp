@@ -21,6 +21,8 @@ std::filesystem::path SuiteArguments::learning_folder() const {
 void add_suite_options(CLI::App& command, SuiteArguments& a) {
   command.add_option("suite", a.suite, "Name of a suite ('fracbench list suites') or a TOML file")
       ->required();
+  command.add_option("--scale", a.scale,
+                     "One of the suite's other scales, such as paper; --dry-run shows them all");
   command.add_option("--out", a.out, "Results folder [results/<name of the suite>]");
   command.add_option(
       "--learning", a.learning,
@@ -51,6 +53,7 @@ void add_suite_options(CLI::App& command, SuiteArguments& a) {
 
 Suite read_suite(SuiteArguments& a, const Catalog& catalog) {
   Suite suite = read_suite(find_suite_file(a.suite), catalog);
+  if (!a.scale.empty()) suite = at_scale(std::move(suite), a.scale, catalog);
   for (const std::string& setting : a.settings) {
     suite = with_override(std::move(suite), setting, catalog);
   }

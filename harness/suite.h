@@ -64,6 +64,14 @@ struct SuiteLearning {
   LearningSplit split;
 };
 
+/// The same suite at another scale, such as the paper's: see at_scale.
+struct SuiteScale {
+  std::string name;
+  std::string summary;
+  std::vector<SuiteShape> shapes;     ///< instead of the suite's; empty: those
+  std::vector<std::string> settings;  ///< as for with_override, in their order
+};
+
 /// What is to be measured: every shape in every scenario with every method (but for methods that
 /// name their shapes), each `repeats` times.
 /// Complete and checked: every option has its value.
@@ -81,6 +89,7 @@ struct Suite {
   std::vector<SuiteScenario> scenarios;
   std::vector<SuiteMethod> methods;
   std::optional<SuiteLearning> learning = {};
+  std::vector<SuiteScale> scales = {};  ///< no part of what the suite is
 };
 
 /// Everything that determines the suite's results, defaults included; the summary, the limits and

@@ -166,4 +166,34 @@ Suite with_override(Suite suite, std::string_view assignment, const Catalog& cat
   return suite;
 }
 
+Suite at_scale(Suite suite, std::string_view scale, const Catalog& catalog) {
+  const auto found = std::ranges::find(suite.scales, scale, &SuiteScale::name);
+  if (found == suite.scales.end()) {
+    std::vector<std::string> names;
+    for (const SuiteScale& known : suite.scales) names.push_back(known.name);
+    throw InputError(fmt::format(
+        "--scale {}: the suite '{}' {}", scale, suite.name,
+        names.empty() ? "has no other scale" : "does not have it" + did_you_mean(scale, names)));
+  }
+  const SuiteScale chosen = *found;
+  suite.name += "-" + chosen.name;
+  suite.scales.clear();
+  if (!chosen.summary.empty()) suite.summary = chosen.summary;
+  if (!chosen.shapes.empty()) {
+    suite.shapes = chosen.shapes;
+    // What was limited to shapes of the smaller scale breaks all of those of this one.
+    for (SuiteMethod& method : suite.methods) method.shapes.clear();
+    if (suite.learning) suite.learning->shapes.clear();
+  }
+  for (const std::string& setting : chosen.settings) {
+    try {
+      suite = with_override(std::move(suite), setting, catalog);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: scale '{}': {}", suite.name, chosen.name, error.what()));
+    }
+  }
+  check_labels(suite, suite.name);
+  return suite;
+}
+
 }  // namespace fracbench

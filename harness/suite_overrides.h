@@ -15,4 +15,8 @@ namespace fracbench {
 /// where LABEL may be * for all of them. Throws InputError, naming the nearest valid key.
 Suite with_override(Suite suite, std::string_view assignment, const Catalog& catalog);
 
+/// The suite at one of its scales: with the shapes and settings of that, called "<suite>-<scale>".
+/// Throws InputError, naming the nearest scale.
+Suite at_scale(Suite suite, std::string_view scale, const Catalog& catalog);
+
 }  // namespace fracbench

@@ -217,6 +217,31 @@ Options read_part(const Entry& entry, std::string_view key, const std::string& w
   return read_options({*table, entry.source, whose}, schema, {});
 }
 
+/// The tables [scale.NAME].
+std::vector<SuiteScale> read_scales(const Entry& top) {
+  std::vector<SuiteScale> scales;
+  const toml::node* node = top.table.get("scale");
+  if (!node) return scales;
+  const toml::table* all = node->as_table();
+  if (!all) {
+    throw InputError(
+        fmt::format("{}: 'scale' must hold tables: write [scale.paper]", top.where(*node)));
+  }
+  for (const auto& [key, value] : *all) {
+    const toml::table* table = value.as_table();
+    if (!table) {
+      throw InputError(fmt::format("{}: 'scale.{}' must be a table", top.where(value), key.str()));
+    }
+    const Entry entry{*table, top.source, fmt::format("scale '{}'", key.str())};
+    read_options(entry, {}, {"summary", "shapes", "set"});
+    scales.push_back({.name = std::string(key.str()),
+                      .summary = read_text(entry, "summary").value_or(""),
+                      .shapes = read_shapes(entry),
+                      .settings = read_names(entry, "set")});
+  }
+  return scales;
+}
+
 std::optional<SuiteLearning> read_learning(const Entry& top, const Catalog& catalog) {
   const toml::node* node = top.table.get("learning");
   if (!node) return std::nullopt;
@@ -269,8 +294,9 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
         fmt::format("{}:{}: {}", source.string(), error.source().begin.line, error.description()));
   }
   const Entry top{table, source, ""};
-  const Options values = read_options(
-      top, suite_schema(), and_limits({"shape", "shapes", "scenario", "method", "learning"}));
+  const Options values =
+      read_options(top, suite_schema(),
+                   and_limits({"shape", "shapes", "scenario", "method", "learning", "scale"}));
   Suite suite;
   suite.folder = source.parent_path();
   suite.name = values.text("name").empty() ? source.stem().string() : values.text("name");
@@ -283,6 +309,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   suite.scenarios = read_scenarios(top, catalog);
   suite.methods = read_methods(top, catalog);
   suite.learning = read_learning(top, catalog);
+  suite.scales = read_scales(top);
   check_labels(suite, source.string());
   return suite;
 }

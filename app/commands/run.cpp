@@ -13,6 +13,7 @@
 #include "harness/exit_code.h"
 #include "harness/plan.h"
 #include "harness/runner.h"
+#include "harness/suite_overrides.h"
 #include "harness/terminal_progress.h"
 
 namespace fracbench {
@@ -58,6 +59,24 @@ bool make_what_is_learned(const Plan& plan, const Catalog& catalog, const RunArg
   return exit_code_of(result) == ExitCode::good;
 }
 
+/// What a suite costs at another of its scales, which may need what is not here.
+void print_scale(const Suite& suite, const SuiteScale& scale, const Catalog& catalog,
+                 const RunArguments& arguments) {
+  std::string cost;
+  try {
+    const Suite other = at_scale(suite, scale.name, catalog);
+    PlanOptions options = arguments.plan;
+    options.shapes.clear();
+    const Plan plan = make_plan(other, catalog, options);
+    cost = estimate_cost(plan, std::filesystem::path("results") / other.name, arguments.jobs)
+               .describe();
+  } catch (const InputError& error) {
+    const std::string why = error.what();
+    cost = "cannot be planned here: " + why.substr(0, why.find('\n'));
+  }
+  fmt::print("--scale {} ({}): {}\n", scale.name, scale.summary, cost);
+}
+
 ExitCode run(RunArguments arguments, std::stop_token stop) {
   const Catalog catalog = built_in_catalog();
   const Suite suite = read_suite(arguments, catalog);
@@ -75,6 +94,7 @@ ExitCode run(RunArguments arguments, std::stop_token stop) {
       print_json(cost.as_json());
     } else {
       fmt::print("{}\n", cost.describe());
+      for (const SuiteScale& scale : suite.scales) print_scale(suite, scale, catalog, arguments);
     }
     return ExitCode::good;
   }

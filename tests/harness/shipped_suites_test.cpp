@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/error.h"
 #include "harness/record_store.h"
 #include "harness/runner.h"
 #include "harness/suite_files.h"
@@ -27,9 +28,38 @@ TEST(ShippedSuitesTest, CanBeReadAndSayWhatTheyAreFor) {
     const Suite suite = read_suite(item.path(), catalog);
     EXPECT_EQ(suite.name, item.path().stem().string());
     EXPECT_FALSE(suite.summary.empty()) << item.path();
+    for (const SuiteScale& scale : suite.scales) {
+      const Suite other = at_scale(suite, scale.name, catalog);
+      EXPECT_EQ(other.name, suite.name + "-" + scale.name);
+      EXPECT_FALSE(scale.summary.empty()) << item.path();
+    }
     ++count;
   }
   EXPECT_GE(count, 11);
+}
+
+TEST(ShippedSuitesTest, EveryItemOfThePaperHasASuiteOfItsNameAtTwoScales) {
+  const Catalog catalog = built_in_catalog();
+  for (const char* item :
+       {"table-1", "table-2", "figure-8", "figure-9", "figure-10", "figure-11", "supplement-1",
+        "supplement-2", "supplement-3", "supplement-4", "supplement-5", "supplement-6",
+        "supplement-8", "supplement-10", "supplement-11", "supplement-12", "supplement-13"}) {
+    const Suite suite = read_suite(find_suite_file(item), catalog);
+    EXPECT_NO_THROW(make_plan(suite, catalog)) << item;
+    ASSERT_EQ(suite.scales.size(), 1u) << item;
+    EXPECT_EQ(suite.scales[0].name, "paper");
+  }
+}
+
+TEST(ShippedSuitesTest, AScaleThatIsNotThereIsRefusedWithTheNearest) {
+  const Catalog catalog = built_in_catalog();
+  const Suite suite = read_suite(find_suite_file("figure-10"), catalog);
+  try {
+    at_scale(suite, "papr", catalog);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'paper'"), std::string::npos);
+  }
 }
 
 TEST(ShippedSuitesTest, QuickUsesNothingThatIsNotThere) {
