@@ -4,8 +4,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 say() { printf '\n== %s\n' "$*"; }
 
-# The packages that are named in third_party/packages-debian.txt.
-wanted_packages() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' third_party/packages-debian.txt; }
+# The packages that are named in third_party/packages-debian.txt, and those of the tests where they
+# are wanted.
+wanted_packages() {
+  local lists=(third_party/packages-debian.txt)
+  [ -n "${FRACBENCH_WITH_TESTS:-}" ] && lists+=(third_party/packages-debian-tests.txt)
+  sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "${lists[@]}"
+}
 
 # Compile units that fit the machine: each of the largest ones (CGAL) takes about 2.5 GB.
 build_jobs() {

@@ -17,6 +17,6 @@ say "running the quick suite"
 build/release/bin/fracbench run quick --out results/quick --jobs "$(nproc)"
 build/release/bin/fracbench report results/quick --out results/quick/report
 say "done"
-echo "report:      results/quick/report/report.md"
+echo "report:      results/quick/report/index.html (open it in a browser), report.md"
 echo "the program: build/release/bin/fracbench --help"
 echo "the tests:   ./scripts/test.sh"

@@ -4,7 +4,7 @@
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 preset=${FRACBENCH_PRESET:-release}
-./scripts/install.sh
+FRACBENCH_WITH_TESTS=1 ./scripts/install.sh
 say "building ($preset)"
 build "$preset"
 say "testing"

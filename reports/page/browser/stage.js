@@ -25,7 +25,7 @@ export class Stage {
     });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
-    this.camera.up.set(0, 1, 0);
+    this.camera.up.set(0, 0, 1); // the axis of the shapes that stand
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.listenToKeyEvents(canvas);
@@ -52,10 +52,10 @@ export class Stage {
 
   /// Turns the camera to a body of that size, from the side that the impact came from.
   look(centre, size, from) {
-    const direction = from ? from.clone().multiplyScalar(-1) : new Vector3(0, 0, 1);
-    direction.add(new Vector3(0.5, 0.45, 0.6)).normalize();
+    const direction = from ? from.clone().multiplyScalar(-1) : new Vector3(0, -1, 0);
+    direction.add(new Vector3(0.5, 0.6, 0.45)).normalize();
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(direction, 1.9 * size);
+    this.camera.position.copy(centre).addScaledVector(direction, 1.6 * size);
     this.controls.update();
     this.draw();
   }
