@@ -19,6 +19,7 @@ struct ReportInput {
   std::vector<ReferenceAgreement> agreements = {};  ///< of the cells with the reference method
   /// Lines about where the results come from (program, machine, suite), shown under the title.
   std::vector<std::string> provenance = {};
+  std::string suite = {};  ///< all its values, as JSON; empty: not known
   BootstrapOptions bootstrap = {};
   std::uint64_t seed = 0;  ///< of the resampling; the same input and seed give the same bytes
 };

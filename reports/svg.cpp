@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -298,6 +299,15 @@ std::string to_svg(const Figure& figure, const SvgOptions& options) {
   }
   if (x.empty() || y.empty()) return "";
   return Drawing(figure, options, x, y).draw();
+}
+
+std::string file_name_part(std::string text) {
+  for (char& c : text) {
+    const bool plain =
+        std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '+' || c == '-';
+    if (!plain) c = '_';
+  }
+  return text;
 }
 
 std::string escape_markup(std::string_view text) {

@@ -50,21 +50,26 @@ std::vector<ReportFile> render_report(const ReportInput& input,
   return files;
 }
 
-std::filesystem::path write_report(const ReportInput& input,
-                                   const std::vector<NamedSection>& sections,
-                                   const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("{}: the folder for the report cannot be made: {}",
-                                 folder.string(), error.message()));
-  }
+std::filesystem::path write_files(const std::vector<ReportFile>& files,
+                                  const std::filesystem::path& folder) {
   std::filesystem::path last;
-  for (const ReportFile& file : render_report(input, sections)) {
+  for (const ReportFile& file : files) {
     last = folder / file.name;
+    std::error_code error;
+    std::filesystem::create_directories(last.parent_path(), error);
+    if (error) {
+      throw InputError(fmt::format("{}: the folder for the report cannot be made: {}",
+                                   last.parent_path().string(), error.message()));
+    }
     write_file_atomically(last, file.bytes);
   }
   return last;
+}
+
+std::filesystem::path write_report(const ReportInput& input,
+                                   const std::vector<NamedSection>& sections,
+                                   const std::filesystem::path& folder) {
+  return write_files(render_report(input, sections), folder);
 }
 
 }  // namespace fracbench

@@ -20,8 +20,15 @@ struct ReportFile {
 std::vector<ReportFile> render_report(const ReportInput& input,
                                       const std::vector<NamedSection>& sections);
 
-/// Writes them below `folder`, which is made where it is missing; each file appears whole or not at
-/// all, report.md last. Returns its path. Throws InputError where it cannot be written.
+/// Writes files below `folder`; folders are made where they are missing, and each file appears
+/// whole or not at all. Returns the path of the last. Throws InputError where one cannot be
+/// written.
+std::filesystem::path write_files(const std::vector<ReportFile>& files,
+                                  const std::filesystem::path& folder);
+
+/// Writes those of render_report below `folder`, which is made where it is missing; each file
+/// appears whole or not at all, report.md last. Returns its path. Throws InputError where it cannot
+/// be written.
 std::filesystem::path write_report(const ReportInput& input,
                                    const std::vector<NamedSection>& sections,
                                    const std::filesystem::path& folder);

@@ -10,6 +10,7 @@
 #include "harness/build_info.h"
 #include "harness/reference_agreement.h"
 #include "harness/summaries.h"
+#include "reports/latex/write_latex.h"
 #include "reports/page/write_page.h"
 #include "reports/write_report.h"
 
@@ -44,6 +45,7 @@ ReportInput input_from(const Results& results, const std::filesystem::path& fold
           .cells = results.cells,
           .agreements = agreement_with_reference(folder, results.cells),
           .provenance = provenance_of(results),
+          .suite = results.suite.values.dump(),
           .bootstrap = {},
           .seed = results.suite.values.value("seed", std::uint64_t{1})};
 }
@@ -70,6 +72,7 @@ ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
   const ReportInput input = input_from(results, arguments.results);
   const std::vector<NamedSection> sections = render_sections(input);
   const std::filesystem::path text = write_report(input, sections, arguments.out);
+  write_files(render_latex(input, sections), arguments.out);
   CommandProgress progress;
   const std::filesystem::path page =
       write_page(input, sections, arguments.results, arguments.out,

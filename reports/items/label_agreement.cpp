@@ -111,7 +111,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const ReportInput& 
   for (const Row& row : rows) {
     if (figures.empty() || row.shape != shape) {
       shape = row.shape;
-      figures.push_back({.name = "label_agreement_" + shape,
+      figures.push_back({.name = "label_agreement_" + file_name_part(shape),
                          .title = "Agreement with bem: " + shape,
                          .notes = {"Faint: single collisions; dots with lines: their mean and its "
                                    "standard error."},

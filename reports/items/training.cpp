@@ -107,7 +107,7 @@ std::vector<Figure> figures_of(const std::vector<Learned>& all, const ReportInpu
   for (const Learned& learned : all) {
     if (figures.empty() || learned.shape != shape) {
       shape = learned.shape;
-      figures.push_back({.name = "training_loss_" + shape,
+      figures.push_back({.name = "training_loss_" + file_name_part(shape),
                          .title = "Training loss: " + shape,
                          .x = {.label = "epoch"},
                          .y = {.label = "mean loss of the epoch", .logarithmic = true}});

@@ -197,7 +197,7 @@ std::vector<Figure> curve_figures(const Table& curves, const ReportInput& input)
     if (figures.empty() || row_shape != shape) {
       shape = row_shape;
       method.clear();
-      figures.push_back({.name = "volume_curves_" + shape,
+      figures.push_back({.name = "volume_curves_" + file_name_part(shape),
                          .title = "Fragment volumes: " + shape,
                          .notes = {"Share of the fragments above a volume; dashed: Mott's law with "
                                    "the same mean above the cut."},
