@@ -10,6 +10,7 @@
 #include "methods/bem/bem.h"
 #include "methods/cvd/cvd.h"
 #include "methods/deepfracture/deepfracture.h"
+#include "methods/external/external.h"
 #include "methods/modes/modes.h"
 #include "methods/nearest-pattern/nearest_pattern.h"
 
@@ -73,8 +74,9 @@ std::vector<std::unique_ptr<Method>> registered() {
 }  // namespace
 
 const std::vector<std::unique_ptr<Method>>& methods() {
-  static const std::vector<std::unique_ptr<Method>> list = registered<             //
-      CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod  //
+  static const std::vector<std::unique_ptr<Method>> list = registered<  //
+      CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod,
+      ExternalMethod  //
       >();
   return list;
 }

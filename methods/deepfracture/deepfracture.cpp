@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/temporary_folder.h"
 #include "methods/deepfracture/deepfracture_body.h"
 #include "methods/deepfracture/patterns.h"
 #include "methods/deepfracture/settings.h"
@@ -32,25 +33,14 @@ class WorkFolder {
       fs::create_directories(path_);
       return;
     }
-    std::string name = (fs::temp_directory_path() / "fracbench-training-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw InputError(fmt::format("no folder can be made in '{}'; set TMPDIR",
-                                   fs::temp_directory_path().string()));
-    }
-    path_ = name;
-    temporary_ = true;
+    temporary_.emplace("training");
+    path_ = temporary_->path();
   }
-  ~WorkFolder() {
-    std::error_code ignored;
-    if (temporary_) fs::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
   fs::path path_;
-  bool temporary_ = false;
+  std::optional<TemporaryWorkFolder> temporary_;
 };
 
 nlohmann::ordered_json to_json(const Material& m) {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <map>
 
+#include "core/adjusted_rand_index.h"
 #include "core/digest.h"
 #include "core/error.h"
 #include "core/impulse_vector.h"
-#include "core/adjusted_rand_index.h"
 #include "geometry/gs_sdf.h"
 #include "geometry/signed_distance_grid.h"
 #include "neural/field_decoder.h"

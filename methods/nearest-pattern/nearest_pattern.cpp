@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
 #include <span>
 
 #include "core/array_file.h"
 #include "core/digest.h"
 #include "core/error.h"
 #include "core/impulse_vector.h"
+#include "geometry/pieces_of_fragments.h"
 
 namespace fracbench {
 
@@ -29,34 +28,6 @@ std::string digest_of(const TriangleMesh& mesh) {
   Digest digest;
   digest.add(mesh);
   return digest.hex();
-}
-
-/// Fragments as pieces of the unbroken body: both sides of a crack know each other.
-std::vector<Piece> pieces_of(const Fragments& fragments) {
-  std::map<std::int32_t, std::vector<std::int32_t>> owners;  // of each crack
-  for (std::size_t n = 0; n < fragments.size(); ++n) {
-    for (const FragmentFace& face : fragments[n].faces) {
-      if (!face.is_fracture() || face.interface < 0) continue;
-      std::vector<std::int32_t>& list = owners[face.interface];
-      const auto piece = static_cast<std::int32_t>(n);
-      if (std::ranges::find(list, piece) == list.end()) list.push_back(piece);
-    }
-  }
-  std::vector<Piece> pieces;
-  for (std::size_t n = 0; n < fragments.size(); ++n) {
-    Piece piece{.mesh = fragments[n].mesh, .faces = {}, .next = nullptr};
-    for (const FragmentFace& face : fragments[n].faces) {
-      PieceFace tag{.parent_face = face.original_face, .neighbour = -1};
-      if (face.is_fracture() && face.interface >= 0) {
-        for (const std::int32_t owner : owners[face.interface]) {
-          if (owner != static_cast<std::int32_t>(n)) tag.neighbour = owner;
-        }
-      }
-      piece.faces.push_back(tag);
-    }
-    pieces.push_back(std::move(piece));
-  }
-  return pieces;
 }
 
 class NearestPatternBody : public Breakable {
@@ -238,7 +209,7 @@ std::unique_ptr<Breakable> NearestPatternMethod::prepare(const Target& target,
   std::vector<Pattern> patterns;
   for (const LearningExample& example : learning.examples) {
     patterns.push_back({.impulses = impulse_vector(example.impact, scaling, features),
-                        .pieces = pieces_of(example.fragments)});
+                        .pieces = pieces_of_fragments(example.fragments)});
   }
   return std::make_unique<NearestPatternBody>(digest_of(target.mesh), scaling, features,
                                               std::move(patterns));
