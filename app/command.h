@@ -17,6 +17,7 @@ using Action = std::function<ExitCode(std::stop_token)>;
 void add_run_command(CLI::App& app, Action& chosen);
 void add_prepare_command(CLI::App& app, Action& chosen);
 void add_report_command(CLI::App& app, Action& chosen);
+void add_render_command(CLI::App& app, Action& chosen);
 void add_compare_command(CLI::App& app, Action& chosen);
 void add_validate_command(CLI::App& app, Action& chosen);
 void add_fracture_command(CLI::App& app, Action& chosen);

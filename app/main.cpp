@@ -58,6 +58,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
   add_run_command(app, chosen);
   add_prepare_command(app, chosen);
   add_report_command(app, chosen);
+  add_render_command(app, chosen);
   add_compare_command(app, chosen);
   add_validate_command(app, chosen);
   add_fracture_command(app, chosen);

@@ -21,35 +21,35 @@ Impacted impact_of(const CellSummary& cell) {
 
 /// One fracture, ready to be compared.
 struct Fracture {
-  Fragments fragments;
   std::vector<std::int32_t> labels;
+  SampledFracture surfaces;
 };
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& folder, int resolution)
-      : folder_(folder), resolution_(resolution) {}
+  Reader(const std::filesystem::path& folder, const AgreementOptions& options)
+      : folder_(folder), options_(options) {}
 
   Fracture operator()(const CellSummary& cell) {
-    Fracture fracture;
+    Fragments fragments;
     {
       const std::scoped_lock one_at_a_time(mutex_);  // HDF5 knows no threads
-      fracture.fragments = read_record(folder_, cell.key).outcome.scene.fragments;
+      fragments = read_record(folder_, cell.key).outcome.scene.fragments;
     }
-    fracture.labels =
-        fragment_labels(fracture.fragments, unit_grid<std::int32_t>(resolution_), 1).values;
-    return fracture;
+    Random random(derive_seed(cell.seed, {"agreement with the reference"}));
+    return {.labels =
+                fragment_labels(fragments, unit_grid<std::int32_t>(options_.resolution), 1).values,
+            .surfaces = SampledFracture(fragments, options_.samples, random)};
   }
 
  private:
   const std::filesystem::path& folder_;
-  int resolution_;
+  const AgreementOptions& options_;
   std::mutex mutex_;
 };
 
 ReferenceAgreement compare(const CellSummary& cell, bool other_impact, const Fracture& reference,
-                           const Fracture& fracture, const AgreementOptions& options) {
-  Random random(derive_seed(cell.seed, {"agreement with the reference"}));
+                           const Fracture& fracture) {
   return {.shape = cell.shape,
           .label = cell.label,
           .family = cell.family,
@@ -57,10 +57,8 @@ ReferenceAgreement compare(const CellSummary& cell, bool other_impact, const Fra
           .repeat = cell.repeat,
           .other_impact = other_impact,
           .partition = partition_agreement(reference.labels, fracture.labels),
-          .surfaces = fracture_surface_agreement(reference.fragments, fracture.fragments,
-                                                 options.surface_samples, random),
-          .fragment_chamfer = fragment_chamfer(reference.fragments, fracture.fragments,
-                                               options.fragment_samples, random)};
+          .surfaces = reference.surfaces.surface_agreement(fracture.surfaces),
+          .fragment_chamfer = reference.surfaces.fragment_chamfer(fracture.surfaces)};
 }
 
 }  // namespace
@@ -68,8 +66,8 @@ ReferenceAgreement compare(const CellSummary& cell, bool other_impact, const Fra
 std::vector<ReferenceAgreement> agreement_with_reference(const std::filesystem::path& folder,
                                                          const std::vector<CellSummary>& cells,
                                                          const AgreementOptions& options) {
-  Reader read(folder, options.resolution);
-  std::map<Impacted, Fracture> reference;
+  Reader read(folder, options);
+  std::map<Impacted, std::optional<Fracture>> reference;
   std::vector<const CellSummary*> broken;
   for (const CellSummary& cell : cells) {
     if (cell.status != CellStatus::ok) continue;
@@ -87,7 +85,7 @@ std::vector<ReferenceAgreement> agreement_with_reference(const std::filesystem::
     const auto same = reference.find(impact_of(cell));
     if (same == reference.end()) return;
     if (cell.label != options.reference) {
-      found[i] = compare(cell, false, same->second, read(cell), options);
+      found[i] = compare(cell, false, *same->second, read(cell));
       return;
     }
     // The next impact on this shape, in a ring.
@@ -95,7 +93,7 @@ std::vector<ReferenceAgreement> agreement_with_reference(const std::filesystem::
     if (next == reference.end() || std::get<0>(next->first) != cell.shape) {
       next = reference.lower_bound({cell.shape, "", "", 0});
     }
-    if (next != same) found[i] = compare(cell, true, same->second, next->second, options);
+    if (next != same) found[i] = compare(cell, true, *same->second, *next->second);
   });
   std::vector<ReferenceAgreement> result;
   for (auto& agreement : found) {

@@ -17,7 +17,7 @@ struct ReferenceAgreement {
   std::string label;             ///< of the method that is compared with the reference
   std::string family, scenario;  ///< of the impact on it
   int repeat = 0;
-  bool other_impact = false;  ///< the reference itself, under another impact: the floor
+  bool other_impact = false;          ///< the reference itself, under another impact: the floor
   PartitionAgreement partition = {};  ///< of the samples inside; the reference is A
   std::optional<FractureSurfaceAgreement> surfaces = {};
   std::optional<double> fragment_chamfer = {};  ///< m
@@ -26,8 +26,7 @@ struct ReferenceAgreement {
 struct AgreementOptions {
   std::string reference = "bem";  ///< label of the method that the others are compared with
   int resolution = 64;            ///< of the grid whose samples are compared
-  int surface_samples = 2000;     ///< points of each fracture surface
-  int fragment_samples = 200;     ///< points of each fragment
+  SurfaceSamples samples = {};
   int threads = 2;
 };
 

@@ -74,70 +74,70 @@ double quantile_95(std::vector<double> values) {
   return *place;
 }
 
-/// A fragment, ready to be compared with many.
-struct Sampled {
-  SurfaceDistance surface;
-  std::vector<Vec3> points;
-  double volume;
-};
-
-std::vector<Sampled> sampled(const Fragments& fragments, int samples, Random& random) {
-  std::vector<Sampled> result;
-  for (const Fragment& fragment : fragments) {
-    if (fragment.mesh.empty()) continue;
-    std::vector<Vec3> points = points_on(fragment.mesh, samples, random);
-    if (points.empty()) continue;
-    result.push_back(
-        {SurfaceDistance(fragment.mesh), std::move(points), std::abs(volume(fragment.mesh))});
-  }
-  return result;
-}
-
 }  // namespace
 
-std::optional<FractureSurfaceAgreement> fracture_surface_agreement(const Fragments& a,
-                                                                   const Fragments& b, int samples,
-                                                                   Random& random) {
-  const TriangleMesh of_a = fracture_surface(a);
-  const TriangleMesh of_b = fracture_surface(b);
-  const std::vector<Vec3> on_a = points_on(of_a, samples, random);
-  const std::vector<Vec3> on_b = points_on(of_b, samples, random);
-  if (on_a.empty() || on_b.empty()) return std::nullopt;
-  const std::vector<double> a_to_b = distances(on_a, SurfaceDistance(of_b));
-  const std::vector<double> b_to_a = distances(on_b, SurfaceDistance(of_a));
-  return FractureSurfaceAgreement{
-      .chamfer = (mean(a_to_b) + mean(b_to_a)) / 2,
-      .hausdorff_95 = std::max(quantile_95(a_to_b), quantile_95(b_to_a))};
+/// A surface with points on it.
+struct SampledFracture::Sampled {
+  SurfaceDistance surface;
+  std::vector<Vec3> points;
+  double volume = 0;  ///< inside, where it is closed
+};
+
+SampledFracture::SampledFracture(const Fragments& fragments, const SurfaceSamples& samples,
+                                 Random& random) {
+  const TriangleMesh cracks = fracture_surface(fragments);
+  std::vector<Vec3> on_cracks = points_on(cracks, samples.fracture_surface, random);
+  if (!on_cracks.empty()) {
+    surface_ = std::make_unique<Sampled>(
+        Sampled{.surface = SurfaceDistance(cracks), .points = std::move(on_cracks)});
+  }
+  for (const Fragment& fragment : fragments) {
+    std::vector<Vec3> points = points_on(fragment.mesh, samples.fragment, random);
+    if (points.empty()) continue;
+    fragments_.push_back({.surface = SurfaceDistance(fragment.mesh),
+                          .points = std::move(points),
+                          .volume = std::abs(volume(fragment.mesh))});
+  }
 }
 
-std::optional<double> fragment_chamfer(const Fragments& a, const Fragments& b, int samples,
-                                       Random& random) {
-  const std::vector<Sampled> of_a = sampled(a, samples, random);
-  const std::vector<Sampled> of_b = sampled(b, samples, random);
-  if (of_a.empty() || of_b.empty()) return std::nullopt;
+SampledFracture::~SampledFracture() = default;
+SampledFracture::SampledFracture(SampledFracture&&) noexcept = default;
+SampledFracture& SampledFracture::operator=(SampledFracture&&) noexcept = default;
+
+std::optional<FractureSurfaceAgreement> SampledFracture::surface_agreement(
+    const SampledFracture& other) const {
+  if (!surface_ || !other.surface_) return std::nullopt;
+  const std::vector<double> forth = distances(surface_->points, other.surface_->surface);
+  const std::vector<double> back = distances(other.surface_->points, surface_->surface);
+  return FractureSurfaceAgreement{.chamfer = (mean(forth) + mean(back)) / 2,
+                                  .hausdorff_95 = std::max(quantile_95(forth), quantile_95(back))};
+}
+
+std::optional<double> SampledFracture::fragment_chamfer(const SampledFracture& other) const {
+  if (fragments_.empty() || other.fragments_.empty()) return std::nullopt;
   constexpr double far = std::numeric_limits<double>::infinity();
-  std::vector<double> nearest_of_a(of_a.size(), far);
-  std::vector<double> nearest_of_b(of_b.size(), far);
-  for (std::size_t i = 0; i < of_a.size(); ++i) {
-    for (std::size_t j = 0; j < of_b.size(); ++j) {
-      const double chamfer = (mean(distances(of_a[i].points, of_b[j].surface)) +
-                              mean(distances(of_b[j].points, of_a[i].surface))) /
+  std::vector<double> nearest(fragments_.size(), far);
+  std::vector<double> nearest_of_other(other.fragments_.size(), far);
+  for (std::size_t i = 0; i < fragments_.size(); ++i) {
+    for (std::size_t j = 0; j < other.fragments_.size(); ++j) {
+      const double chamfer = (mean(distances(fragments_[i].points, other.fragments_[j].surface)) +
+                              mean(distances(other.fragments_[j].points, fragments_[i].surface))) /
                              2;
-      nearest_of_a[i] = std::min(nearest_of_a[i], chamfer);
-      nearest_of_b[j] = std::min(nearest_of_b[j], chamfer);
+      nearest[i] = std::min(nearest[i], chamfer);
+      nearest_of_other[j] = std::min(nearest_of_other[j], chamfer);
     }
   }
   const auto weighted = [](const std::vector<Sampled>& fragments,
-                           const std::vector<double>& far_by) {
+                           const std::vector<double>& distance) {
     double sum = 0;
     double volumes = 0;
     for (std::size_t i = 0; i < fragments.size(); ++i) {
-      sum += fragments[i].volume * far_by[i];
+      sum += fragments[i].volume * distance[i];
       volumes += fragments[i].volume;
     }
     return volumes > 0 ? sum / volumes : 0.0;
   };
-  return (weighted(of_a, nearest_of_a) + weighted(of_b, nearest_of_b)) / 2;
+  return (weighted(fragments_, nearest) + weighted(other.fragments_, nearest_of_other)) / 2;
 }
 
 }  // namespace fracbench

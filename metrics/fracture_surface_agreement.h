@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/fragments.h"
 #include "core/random.h"
@@ -15,15 +17,32 @@ struct FractureSurfaceAgreement {
   double hausdorff_95 = 0;
 };
 
-/// From points drawn evenly by area. Nothing where one of them has no fracture surface.
-std::optional<FractureSurfaceAgreement> fracture_surface_agreement(const Fragments& a,
-                                                                   const Fragments& b, int samples,
-                                                                   Random& random);
+/// How many points are drawn, evenly by area.
+struct SurfaceSamples {
+  int fracture_surface = 2000;
+  int fragment = 200;  ///< on each
+};
 
-/// Each fragment is matched with the one of the other fracture whose surface has the least Chamfer
-/// distance from its own; mean of these distances with volumes as weights; mean of both ways, m.
-/// Points are drawn evenly by area. Nothing where one of them has no fragments.
-std::optional<double> fragment_chamfer(const Fragments& a, const Fragments& b, int samples,
-                                       Random& random);
+/// A fracture, ready to be compared with many others. Safe to use from many threads.
+class SampledFracture {
+ public:
+  SampledFracture(const Fragments& fragments, const SurfaceSamples& samples, Random& random);
+  ~SampledFracture();
+  SampledFracture(SampledFracture&&) noexcept;
+  SampledFracture& operator=(SampledFracture&&) noexcept;
+
+  /// Nothing where one of them has no fracture surface.
+  std::optional<FractureSurfaceAgreement> surface_agreement(const SampledFracture& other) const;
+
+  /// Each fragment is matched with the one of the other fracture whose surface has the least
+  /// Chamfer distance from its own; mean of these distances with volumes as weights; mean of both
+  /// ways, m. Nothing where one of them has no fragments.
+  std::optional<double> fragment_chamfer(const SampledFracture& other) const;
+
+ private:
+  struct Sampled;
+  std::unique_ptr<Sampled> surface_;  ///< null: there is none
+  std::vector<Sampled> fragments_;
+};
 
 }  // namespace fracbench

@@ -15,6 +15,21 @@ Fragments cut_at(double z) {
   return cut_all(box(), Vec3(0.5, 0.5, z), normals);
 }
 
+std::optional<FractureSurfaceAgreement> fracture_surface_agreement(const Fragments& a,
+                                                                   const Fragments& b, int samples,
+                                                                   Random& random) {
+  const SurfaceSamples counts{.fracture_surface = samples, .fragment = 1};
+  const SampledFracture of_a(a, counts, random);
+  return of_a.surface_agreement(SampledFracture(b, counts, random));
+}
+
+std::optional<double> fragment_chamfer(const Fragments& a, const Fragments& b, int samples,
+                                       Random& random) {
+  const SurfaceSamples counts{.fracture_surface = 1, .fragment = samples};
+  const SampledFracture of_a(a, counts, random);
+  return of_a.fragment_chamfer(SampledFracture(b, counts, random));
+}
+
 TEST(FractureSurfaceAgreement, OfParallelCutsIsTheirDistance) {
   Random random(1);
   const auto agreement = fracture_surface_agreement(cut_at(0.5), cut_at(0.6), 500, random);
