@@ -168,7 +168,8 @@ ReportSection ClaimsTable::render(const ReportInput& input) const {
   for (const ShapeVolumes& shape : volumes_by_shape(input)) {
     const Evidence evidence(shape, input);
     for (const Claim& claim : claims.list) {
-      if (!evidence.has(claim.subject)) continue;
+      const auto measured = [&](const std::string& label) { return evidence.has(label); };
+      if (!measured(claim.subject) || std::ranges::none_of(claim.others, measured)) continue;
       for (const std::string& other : opponents(claim, claims, shape, evidence)) {
         const bool named = std::ranges::find(claim.others, other) != claim.others.end();
         if (!evidence.has(other) && other != kAnotherImpact) continue;

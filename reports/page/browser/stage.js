@@ -6,6 +6,7 @@ import {
   DirectionalLight,
   PerspectiveCamera,
   Scene,
+  Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
@@ -23,6 +24,7 @@ export class Stage {
       alpha: true,
       preserveDrawingBuffer: true,
     });
+    this.renderer.setClearColor(0x000000, 0);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
     this.camera.up.set(0, 0, 1); // the axis of the shapes that stand
@@ -73,7 +75,11 @@ export class Stage {
   render() {
     const box = this.canvas.getBoundingClientRect();
     if (box.width === 0 || box.height === 0) return;
-    this.renderer.setSize(box.width, box.height, false);
+    const size = this.renderer.getSize(new Vector2());
+    if (size.x !== box.width || size.y !== box.height) {
+      this.renderer.setSize(box.width, box.height, false);
+    }
+    this.renderer.setViewport(0, 0, box.width, box.height);
     this.renderer.setScissorTest(false);
     this.renderer.clear();
     this.renderer.setScissorTest(true);
