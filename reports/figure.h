@@ -43,7 +43,8 @@ struct Figure {
   std::vector<FigureSeries> series = {};
 };
 
-/// Part of the name of a figure's file: what is neither a letter, a digit nor one of ". + -" becomes
+/// Part of the name of a figure's file: what is neither a letter, a digit nor one of ". + -"
+/// becomes
 /// "_".
 std::string file_name_part(std::string text);
 

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/command.h"
 #include "core/error.h"
 #include "geometry/write_mesh.h"
 #include "geometry/write_motion.h"
 #include "harness/record_store.h"
+#include "reports/scene_parts.h"
 
 namespace fracbench {
 
@@ -21,13 +21,6 @@ struct ExportArguments {
   fs::path out;
   bool still = false;
 };
-
-std::vector<double> ball_radii(const Record& record) {
-  std::vector<double> radii;
-  const auto values = nlohmann::json::parse(record.identity.scenario_values);
-  for (const auto& ball : values.at("balls")) radii.push_back(ball.at("radius"));
-  return radii;
-}
 
 ExitCode export_record(ExportArguments a) {
   const fs::path file = fs::weakly_canonical(a.record);

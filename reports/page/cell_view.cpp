@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/simplify.h"
+#include "reports/scene_parts.h"
 
 namespace fracbench {
 
@@ -114,17 +115,6 @@ Json impacts_json(const SceneResult& scene) {
   return impacts;
 }
 
-/// The radii of the balls, m: of the scene's values only they are drawn.
-Json ball_radii(const std::string& scenario_values) {
-  Json radii = Json::array();
-  const Json values = Json::parse(scenario_values, nullptr, false);
-  if (!values.is_object()) return radii;
-  for (const Json& ball : values.value("balls", Json::array())) {
-    radii.push_back(ball.value("radius", 0.1));
-  }
-  return radii;
-}
-
 }  // namespace
 
 std::string cell_view_head(std::string_view key) {
@@ -134,13 +124,7 @@ std::string cell_view_head(std::string_view key) {
 std::string cell_view(const Record& record, const TriangleMesh& target,
                       const CellViewOptions& options) {
   const SceneResult& scene = record.outcome.scene;
-  Fragments whole;
-  if (scene.fragments.empty()) {
-    whole.push_back(
-        {.mesh = target,
-         .faces = std::vector<FragmentFace>(target.faces.size(), {.original_face = 0})});
-  }
-  const Fragments& fragments = scene.fragments.empty() ? whole : scene.fragments;
+  const Fragments fragments = shown_fragments(record, target);
   Grid grid;
   std::size_t faces = 0;
   for (const Fragment& fragment : fragments) {
@@ -159,7 +143,7 @@ std::string cell_view(const Record& record, const TriangleMesh& target,
   }
   json["trajectory"] = trajectory_json(scene.trajectory);
   json["impacts"] = impacts_json(scene);
-  json["balls"] = ball_radii(record.identity.scenario_values);
+  json["balls"] = ball_radii(record);
   const std::string body = json.dump();
   return cell_view_head(record.key) + body.substr(1) + ");\n";
 }

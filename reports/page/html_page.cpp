@@ -8,6 +8,7 @@
 
 #include "geometry/palette.h"
 #include "reports/cell_groups.h"
+#include "reports/picture/sheet.h"
 #include "reports/svg.h"
 
 namespace fracbench {
@@ -178,6 +179,27 @@ std::string viewer_html(const ReportInput& input, const PageOptions& options) {
                             script_json(viewer_index(input, options)));
 }
 
+/// One collision of each shape by every method.
+std::string pictures_html(const ReportInput& input) {
+  const std::vector<SheetRow> rows = sheet_rows(input.cells);
+  const std::vector<std::string> columns = sheet_columns(input.cells, rows);
+  std::string html = "<h3>One collision of each shape</h3>\n<div class=\"scroll pictures\">\n";
+  for (const SheetRow& row : rows) {
+    html += "<div>";
+    for (const std::string& column : columns) {
+      const auto cell = row.cells.find(column);
+      if (cell == row.cells.end()) continue;
+      html += fmt::format(
+          "<figure data-cell=\"{}\"><img src=\"pictures/{}.png\" width=\"{}\" height=\"{}\" "
+          "loading=\"lazy\" alt=\"\"><figcaption>{}: {}</figcaption></figure>",
+          cell->second->key, picture_name(row, column), kThumbnail, kThumbnail,
+          escape_markup(cell->second->shape), escape_markup(column));
+    }
+    html += "</div>\n";
+  }
+  return html + "</div>\n";
+}
+
 std::string provenance_html(const ReportInput& input, const PageOptions& options) {
   std::string html = "<section id=\"provenance\">\n<h2>Provenance</h2>\n<ul>\n";
   for (const std::string& line : input.provenance) {
@@ -216,6 +238,7 @@ std::string html_page(const ReportInput& input, const std::vector<NamedSection>&
       "<li><a href=\"#cells\">Cells</a></li>\n<li><a href=\"#provenance\">Provenance</a></li>\n"
       "</ul></nav>\n<main>\n";
   html += viewer_html(input, options);
+  if (options.pictures) html += pictures_html(input);
   html += fmt::format(
       "<p class=\"note\">Intervals in brackets hold {:g} % and come from {} resamples of whole "
       "collisions.</p>\n",

@@ -8,11 +8,14 @@
 
 namespace fracbench {
 
+constexpr int kThumbnail = 160;  ///< width and height of a picture on the page, px
+
 /// What the page can show beside sections.
 struct PageOptions {
   bool script = true;  ///< page.js is beside it; else tables do not sort and there is no viewer
   /// Keys of the cells that there is a file cells/<key>.js for, which the viewer shows.
   std::vector<std::string> viewed = {};
+  bool pictures = false;  ///< there is pictures/<picture_name>.png for each picture of sheet_rows
   std::vector<std::string> commands = {};  ///< that make the results and this report
 };
 

@@ -11,6 +11,8 @@
 #include "core/error.h"
 #include "harness/record_store.h"
 #include "reports/page/html_page.h"
+#include "reports/picture/record_picture.h"
+#include "reports/picture/sheet.h"
 
 namespace fracbench {
 
@@ -68,6 +70,23 @@ std::vector<std::string> write_cells(const ReportInput& input, const fs::path& r
   return keys;
 }
 
+/// One picture of each method and shape, twice as fine as it is shown.
+void write_pictures(const ReportInput& input, const fs::path& results, const fs::path& folder,
+                    const PageFilesOptions& options) {
+  make_folder(folder);
+  const std::vector<SheetRow> rows = sheet_rows(input.cells);
+  for (const SheetRow& row : rows) {
+    for (const auto& [method, cell] : row.cells) {
+      if (options.stop.stop_requested()) throw Cancelled();
+      const Record record = read_record(results, cell->key);
+      const TriangleMesh target = read_target(results, record.identity.shape_digest);
+      const Picture picture =
+          picture_of(record, target, {.width = 2 * kThumbnail, .height = 2 * kThumbnail});
+      write_file_atomically(folder / (picture_name(row, method) + ".png"), png_bytes(picture));
+    }
+  }
+}
+
 }  // namespace
 
 fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& sections,
@@ -80,6 +99,8 @@ fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& s
     page.viewed = write_cells(input, results, folder / "cells", options);
     write_file_atomically(folder / "page.js", script);
   }
+  write_pictures(input, results, folder / "pictures", options);
+  page.pictures = true;
   write_file_atomically(folder / "page.css", asset("page.css"));
   std::ifstream suite(results / "suite.json", std::ios::binary);
   write_file_atomically(folder / "suite.json",

@@ -4,6 +4,7 @@
 
 #include "geometry/measures.h"
 #include "geometry/palette.h"
+#include "reports/scene_parts.h"
 
 namespace fracbench {
 
@@ -68,13 +69,7 @@ int frames_of(const Record& record) {
 Picture picture_of(const Record& record, const TriangleMesh& target,
                    const RecordPictureOptions& options) {
   const SceneResult& scene = record.outcome.scene;
-  Fragments whole;
-  if (scene.fragments.empty()) {
-    whole.push_back(
-        {.mesh = target,
-         .faces = std::vector<FragmentFace>(target.faces.size(), {.original_face = 0})});
-  }
-  const Fragments& fragments = scene.fragments.empty() ? whole : scene.fragments;
+  const Fragments fragments = shown_fragments(record, target);
   const BoundingBox box = bounding_box(target);
   double reach = 0;
   for (const Vec3& v : target.vertices) reach = std::max(reach, (v - box.center()).norm());

@@ -136,6 +136,15 @@ try {
   await page.waitForFunction(() => window.fracbenchViewer.models.length === 1);
   expect(true, "a line of the table of cells opens its cell");
 
+  const loaded = await page.$$eval(".pictures img", (images) =>
+    Promise.all(images.map((image) => ((image.loading = "eager"), image.decode().then(() => image.naturalWidth)))),
+  );
+  expect(loaded.length === 2 && loaded.every((width) => width === 320), "pictures are there");
+  await page.focus(".pictures figure:nth-child(2)");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.querySelector(".panels span")?.textContent.startsWith("cvd-12"));
+  expect(true, "a picture opens its cell");
+
   expect((await page.$$("figure svg")).length >= 3, "figures are there");
   await page.setViewportSize({ width: 390, height: 800 });
   const overflow = await page.evaluate(

@@ -11,13 +11,22 @@ if (index) {
   const viewer = new Viewer(place, JSON.parse(index.textContent));
   viewer.start();
   window.fracbenchViewer = viewer; // for the browser's console, and for tests
+  const look = (key) => {
+    viewer.show(key);
+    document.getElementById("viewer").scrollIntoView();
+  };
+  for (const figure of document.querySelectorAll("figure[data-cell]")) {
+    figure.setAttribute("role", "button");
+    figure.tabIndex = 0;
+    figure.addEventListener("click", () => look(figure.dataset.cell));
+    figure.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") look(figure.dataset.cell);
+    });
+  }
   for (const row of document.querySelectorAll("tr[data-cell]")) {
     const button = document.createElement("button");
     button.textContent = "look";
-    button.addEventListener("click", () => {
-      viewer.show(row.dataset.cell);
-      document.getElementById("viewer").scrollIntoView();
-    });
+    button.addEventListener("click", () => look(row.dataset.cell));
     row.lastElementChild.prepend(button, " ");
   }
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/record.h"
+
+namespace fracbench {
+
+/// What there is to see of a record: its fragments, or the target as one where it did not break.
+Fragments shown_fragments(const Record& record, const TriangleMesh& target);
+
+/// The radii of the balls of its scene, m, by their index.
+std::vector<double> ball_radii(const Record& record);
+
+}  // namespace fracbench
