@@ -8,7 +8,7 @@
 
 #include "app/command.h"
 #include "app/fragment_folder.h"
-#include "app/fragments_of_pieces.h"
+#include "scenarios/fragments_of_pieces.h"
 #include "app/result_json.h"
 #include "app/shape_frame.h"
 #include "core/error.h"

@@ -1,4 +1,4 @@
-#include "app/fragments_of_pieces.h"
+#include "scenarios/fragments_of_pieces.h"
 
 #include "scenarios/replacement.h"
 

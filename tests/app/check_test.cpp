@@ -1,0 +1,115 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "program.h"
+
+namespace fracbench {
+namespace {
+
+using testing::HasSubstr;
+
+/// Methods that break a promise each, as shell scripts, and the check that has to find it.
+class HostileMethod : public testing::Test {
+ protected:
+  /// The results of some checks of a script, by name.
+  std::map<std::string, std::string> check(const std::string& script, const std::string& only,
+                                           const std::string& more = "") {
+    folder_.write("hostile.sh", script + "\n");
+    answer_ = call("check external --set program=hostile.sh --set interpreter=sh --json --only " +
+                       only + " " + more,
+                   folder_.path());
+    std::map<std::string, std::string> results;
+    if (answer_.exit_code != 0 && answer_.exit_code != 3) {
+      ADD_FAILURE() << answer_.errors;
+      return results;
+    }
+    for (const auto& row : answer_.json()) {
+      results[row["check"]] = row["result"];
+      details_[row["check"]] = row["detail"];
+    }
+    return results;
+  }
+
+  /// Two copies of the body, smaller and beside each other.
+  static std::string two(const std::string& factor) {
+    return "for side in -1 1; do awk -v f=" + factor +
+           " -v s=$side '/^v/ {print \"v\", f * $2 + s / 2, f * $3, f * $4; next} {print}' "
+           "$1/body.obj > $2/part$side.obj; done";
+  }
+
+  TemporaryFolder folder_;
+  Answer answer_;
+  std::map<std::string, std::string> details_;
+};
+
+TEST_F(HostileMethod, ThatLosesVolumeIsFound) {
+  auto results = check(two("0.4"), "tags,closed,disjoint,volume,surface,same-seed");
+  EXPECT_EQ(results["tags"], "passed");
+  EXPECT_EQ(results["closed"], "passed");
+  EXPECT_EQ(results["disjoint"], "passed");
+  EXPECT_EQ(results["same-seed"], "passed");
+  EXPECT_EQ(results["volume"], "failed");
+  EXPECT_EQ(results["surface"], "failed");
+  EXPECT_THAT(details_["volume"], HasSubstr("|0.128"));
+  EXPECT_EQ(answer_.exit_code, 3);
+}
+
+TEST_F(HostileMethod, WhoseFragmentsOverlapIsFound) {
+  EXPECT_EQ(check(two("0.9"), "disjoint")["disjoint"], "failed");
+}
+
+TEST_F(HostileMethod, WhoseFragmentsAreOpenIsFound) {
+  EXPECT_EQ(check(two("0.4") + "; sed -i '$d' $2/part1.obj", "closed")["closed"], "failed");
+  EXPECT_THAT(details_["closed"], HasSubstr("open"));
+}
+
+TEST_F(HostileMethod, WithVerticesThatAreNoNumbersIsFound) {
+  EXPECT_EQ(check("sed 's/^v .*/v nan 0 0/' $1/body.obj > $2/a.obj", "tags")["tags"], "failed");
+}
+
+TEST_F(HostileMethod, ThatCrashesIsFound) {
+  EXPECT_EQ(check("kill -SEGV $$", "tags")["tags"], "failed");
+  EXPECT_THAT(details_["tags"], HasSubstr("signal 11"));
+}
+
+TEST_F(HostileMethod, ThatHangsIsFound) {
+  EXPECT_EQ(check("sleep 1000", "tags", "--seconds 0.5")["tags"], "failed");
+  EXPECT_THAT(details_["tags"], HasSubstr("longer than 0.5 s"));
+}
+
+TEST_F(HostileMethod, ThatTakesChanceFromElsewhereIsFound) {
+  auto results = check("f=0.$(od -An -N2 -tu2 /dev/urandom | tr -d ' ')1; " + two("$f"),
+                       "same-seed,const-use");
+  EXPECT_EQ(results["same-seed"], "failed");
+  EXPECT_EQ(results["const-use"], "failed");
+}
+
+TEST_F(HostileMethod, ThatIsNotRandomThoughItSaysSoIsFound) {
+  EXPECT_EQ(check(two("0.4"), "other-seed")["other-seed"], "failed");
+}
+
+TEST(CheckCommand, MethodsThatAreBuiltInConform) {
+  TemporaryFolder folder;
+  for (const char* method :
+       {"cvd", "modes --set modes=3 --set cage_faces=300",
+        "bem --set triangles=200 --set voxel=0.08 --set max_cracks=2 --set refracture_volume=1 "
+        "--only tags,closed,volume,same-seed,save-load,cancel"}) {
+    const Answer answer = call("check " + std::string(method), folder.path());
+    EXPECT_EQ(answer.exit_code, 0) << answer.output << answer.errors;
+    EXPECT_THAT(answer.output, HasSubstr("conforms"));
+  }
+}
+
+TEST(CheckCommand, RefusesWhatItDoesNotKnow) {
+  TemporaryFolder folder;
+  EXPECT_EQ(call("check nothing", folder.path()).exit_code, 2);
+  EXPECT_EQ(call("check cvd --only nothing", folder.path()).exit_code, 2);
+  EXPECT_EQ(call("check cvd --set sites=-4", folder.path()).exit_code, 2);
+  EXPECT_EQ(call("check cvd --shapes nothing", folder.path()).exit_code, 2);
+  EXPECT_THAT(call("check nearest-pattern", folder.path()).errors, HasSubstr("it learns first"));
+}
+
+}  // namespace
+}  // namespace fracbench
