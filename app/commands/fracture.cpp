@@ -88,21 +88,23 @@ struct Broken {
   bool failed = false;
 };
 
+std::string why_whole(const Scenario& scenario, const std::optional<Impact>& strongest) {
+  if (!strongest) return "no ball touched the body";
+  const BreakTestValues& test = strongest->break_test;
+  if (breaks(scenario.break_test, test, scenario.material)) return "the method left the body whole";
+  return fmt::format(
+      "the break test did not fire: total impulse {:.4g} N s, balanced force {:.4g} N; a faster "
+      "ball "
+      "or --break-test eq2-patch helps",
+      test.total_impulse, test.balanced_force);
+}
+
 Broken break_by_scene(const Scenario& scenario, const Target& target,
                       std::shared_ptr<const Breakable> breakable, Context& context) {
   SceneResult scene = run_scene(scenario, target, std::move(breakable), context);
   Broken broken{std::move(scene.impacts), std::move(scene.fragments), std::move(scene.trajectory),
                 ""};
-  if (broken.impacts.empty()) {
-    broken.reason =
-        scene.unbroken
-            ? fmt::format(
-                  "the break test did not fire: total impulse {:.4g} N s, balanced force "
-                  "{:.4g} N; a faster ball or --break-test eq2-patch helps",
-                  scene.unbroken->break_test.total_impulse,
-                  scene.unbroken->break_test.balanced_force)
-            : "no ball touched the body";
-  }
+  if (broken.impacts.empty()) broken.reason = why_whole(scenario, scene.unbroken);
   return broken;
 }
 

@@ -165,6 +165,7 @@ ReportSection ClaimsTable::render(const ReportInput& input) const {
                           {"statistic"},
                           {"value"},
                           {"verdict"}}};
+  std::map<std::string, int> verdicts;  // of what the paper claims
   for (const ShapeVolumes& shape : volumes_by_shape(input)) {
     const Evidence evidence(shape, input);
     for (const Claim& claim : claims.list) {
@@ -174,6 +175,7 @@ ReportSection ClaimsTable::render(const ReportInput& input) const {
         const bool named = std::ranges::find(claim.others, other) != claim.others.end();
         if (!evidence.has(other) && other != kAnotherImpact) continue;
         const TableCell value = evidence.evaluate(claim, other);
+        if (named) ++verdicts[std::string(judge_claim(value))];
         const std::string statistic =
             claim.metric.empty() ? claim.statistic : claim.statistic + " " + claim.metric;
         table.rows.push_back({claim.name, shape.shape, claim.subject, other,
@@ -189,7 +191,11 @@ ReportSection ClaimsTable::render(const ReportInput& input) const {
   for (const Claim& claim : claims.list) {
     sayings.rows.push_back({claim.name, claim.place, claim.says, claim.erratum});
   }
-  return {.paragraphs = {}, .tables = {std::move(table), std::move(sayings)}};
+  const std::string summary = fmt::format(
+      "Of the comparisons that the paper claims, {} hold, {} fail and {} are open in these "
+      "results.",
+      verdicts["holds"], verdicts["fails"], verdicts["open"]);
+  return {.paragraphs = {summary}, .tables = {std::move(table), std::move(sayings)}};
 }
 
 }  // namespace fracbench

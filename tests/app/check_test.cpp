@@ -90,6 +90,16 @@ TEST_F(HostileMethod, ThatIsNotRandomThoughItSaysSoIsFound) {
   EXPECT_EQ(check(two("0.4"), "other-seed")["other-seed"], "failed");
 }
 
+TEST(FractureCommand, TellsAMethodThatLeftTheBodyWholeFromABreakTestThatDidNotFire) {
+  TemporaryFolder folder;
+  folder.write("whole.sh", "cp $1/body.obj $2/body.obj\n");
+  const std::string method = "fracture external cube --set program=whole.sh --set interpreter=sh ";
+  EXPECT_THAT(call(method + "--ball 3,0,0,-60,0,0 --out hard", folder.path()).output,
+              HasSubstr("the method left the body whole"));
+  EXPECT_THAT(call(method + "--ball 3,0,0,-10,0,0 --out soft", folder.path()).output,
+              HasSubstr("the break test did not fire"));
+}
+
 TEST(CheckCommand, MethodsThatAreBuiltInConform) {
   TemporaryFolder folder;
   for (const char* method :
