@@ -25,6 +25,7 @@ void add_score_command(CLI::App& app, Action& chosen);
 void add_partition_command(CLI::App& app, Action& chosen);
 void add_cache_command(CLI::App& app, Action& chosen);
 void add_check_command(CLI::App& app, Action& chosen);
+void add_new_command(CLI::App& app, Action& chosen);
 void add_export_command(CLI::App& app, Action& chosen);
 void add_export_learning_command(CLI::App& app, Action& chosen);
 void add_list_command(CLI::App& app, Action& chosen);

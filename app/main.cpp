@@ -66,6 +66,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
   add_partition_command(app, chosen);
   add_cache_command(app, chosen);
   add_check_command(app, chosen);
+  add_new_command(app, chosen);
   add_export_command(app, chosen);
   add_export_learning_command(app, chosen);
   add_list_command(app, chosen);

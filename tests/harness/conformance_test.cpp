@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "methods/cvd/cvd.h"
+#include "methods/plane-cutter/plane_cutter.h"
 #include "scenarios/shapes.h"
 
 namespace fracbench {
@@ -76,6 +77,19 @@ TEST(Conformance, OfASoundMethodPassesEveryCheck) {
     const CheckResult found = result(Spoiled::By::nothing, check.name);
     EXPECT_EQ(found.conformity, Conformity::passed) << check.name << ": " << found.detail;
     EXPECT_FALSE(check.summary.empty());
+  }
+}
+
+TEST(Conformance, OfTheTemplateForNewMethodsIsGiven) {
+  const PlaneCutterMethod method;
+  for (const char* shape : {"cube", "mug"}) {
+    const Target target{.name = shape, .mesh = load_shape({.name = shape}).mesh, .material = {}};
+    for (const Check& check : conformance_checks()) {
+      const CheckResult found = make_check(
+          check.name,
+          {.method = method, .options = Options(method.options(), {}, "test"), .target = target});
+      EXPECT_EQ(found.conformity, Conformity::passed) << shape << check.name << found.detail;
+    }
   }
 }
 
