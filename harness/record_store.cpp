@@ -66,14 +66,24 @@ std::vector<fs::path> list_records(const fs::path& folder) {
   return files;
 }
 
+namespace {
+
+DataTree read_present(const fs::path& file) {
+  if (!fs::exists(file)) throw DataError(fmt::format("{}: is missing", file.string()));
+  return read_hdf5(file);
+}
+
+}  // namespace
+
 Record read_record(const fs::path& folder, std::string_view key) {
-  Record record = to_record(read_hdf5(folder / "records" / fmt::format("{}.h5", key)));
+  Record record = to_record(read_present(folder / "records" / fmt::format("{}.h5", key)));
   if (record.key != key) throw DataError("is the record of another cell");
   return record;
 }
 
 TriangleMesh read_target(const fs::path& folder, std::string_view digest) {
-  TriangleMesh mesh = get_mesh(read_hdf5(folder / "shapes" / fmt::format("{}.h5", digest)), "mesh");
+  TriangleMesh mesh =
+      get_mesh(read_present(folder / "shapes" / fmt::format("{}.h5", digest)), "mesh");
   Digest sum;
   sum.add(mesh);
   if (sum.hex() != digest) throw DataError("the mesh is not the one that its file's name promises");

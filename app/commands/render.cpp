@@ -57,6 +57,7 @@ ExitCode render(RenderArguments a, const std::stop_token& stop) {
   const std::vector<std::string> columns = sheet_columns(results.cells, rows);
   fs::create_directories(a.out);
   CommandProgress progress;
+  bool all_drawn = true;
   const int size = a.picture.width;
   Picture sheet(size * static_cast<int>(columns.size()), size * static_cast<int>(rows.size()));
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -64,8 +65,16 @@ ExitCode render(RenderArguments a, const std::stop_token& stop) {
       const auto cell = rows[r].cells.find(columns[c]);
       if (cell == rows[r].cells.end()) continue;
       if (stop.stop_requested()) throw Cancelled();
-      const Record record = read_record(a.results, cell->second->key);
-      const TriangleMesh target = read_target(a.results, record.identity.shape_digest);
+      Record record;
+      TriangleMesh target;
+      try {
+        record = read_record(a.results, cell->second->key);
+        target = read_target(a.results, record.identity.shape_digest);
+      } catch (const DataError& error) {
+        fmt::print(stderr, "fracbench: left out: {}\n", error.what());
+        all_drawn = false;
+        continue;
+      }
       const Picture picture = picture_of(record, target, a.picture);
       const std::string name = picture_name(rows[r], columns[c]);
       write_file_atomically(a.out / (name + ".png"), png_bytes(picture));
@@ -81,7 +90,7 @@ ExitCode render(RenderArguments a, const std::stop_token& stop) {
   fmt::print("rows:    {}\ncolumns: {}\n{}\n",
              fmt::join(rows | std::views::transform(&SheetRow::name), ", "),
              fmt::join(columns, ", "), (a.out / "sheet.png").string());
-  return ExitCode::good;
+  return all_drawn ? ExitCode::good : ExitCode::not_measured;
 }
 
 }  // namespace

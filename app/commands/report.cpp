@@ -74,11 +74,17 @@ ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
   const std::filesystem::path text = write_report(input, sections, arguments.out);
   write_files(render_latex(input, sections), arguments.out);
   CommandProgress progress;
-  const std::filesystem::path page =
-      write_page(input, sections, arguments.results, arguments.out,
-                 {.commands = commands_of(results), .stop = stop, .progress = &progress});
+  bool all_shown = true;
+  const std::filesystem::path page = write_page(input, sections, arguments.results, arguments.out,
+                                                {.commands = commands_of(results),
+                                                 .stop = stop,
+                                                 .progress = &progress,
+                                                 .message = [&](std::string_view why) {
+                                                   fmt::print(stderr, "fracbench: {}\n", why);
+                                                   all_shown = false;
+                                                 }});
   fmt::print("{}\n{}\n", text.string(), page.string());
-  return results.unreadable.empty() ? ExitCode::good : ExitCode::not_measured;
+  return results.unreadable.empty() && all_shown ? ExitCode::good : ExitCode::not_measured;
 }
 
 }  // namespace

@@ -41,25 +41,54 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-/// Writes the files of all cells; returns their keys, sorted.
-std::vector<std::string> write_cells(const ReportInput& input, const fs::path& results,
+/// A record with its target, read for one use after the other.
+class Reader {
+ public:
+  explicit Reader(const fs::path& results) : results_(results) {}
+
+  Record record(const std::string& key) const { return read_record(results_, key); }
+  const TriangleMesh& target(const Record& record) {
+    TriangleMesh& mesh = targets_[record.identity.shape_digest];
+    if (mesh.empty()) mesh = read_target(results_, record.identity.shape_digest);
+    return mesh;
+  }
+
+ private:
+  const fs::path& results_;
+  std::map<std::string, TriangleMesh> targets_;
+};
+
+/// Does something for a cell; what is wrong with its data is told, and that is all.
+bool attempt(const CellSummary& cell, const PageFilesOptions& options,
+             const std::function<void()>& work) {
+  if (options.stop.stop_requested()) throw Cancelled();
+  try {
+    work();
+    return true;
+  } catch (const DataError& error) {
+    if (options.message) {
+      options.message(fmt::format("{} {} {}: cannot be shown: {}", cell.shape, cell.scenario,
+                                  cell.label, error.what()));
+    }
+    return false;
+  }
+}
+
+/// Writes the files of all cells; returns the keys of those that there is one for, sorted.
+std::vector<std::string> write_cells(const ReportInput& input, Reader& reader,
                                      const fs::path& folder, const PageFilesOptions& options) {
   make_folder(folder);
-  std::map<std::string, TriangleMesh> targets;
   std::vector<std::string> keys;
   for (const CellSummary& cell : input.cells) {
-    if (options.stop.stop_requested()) throw Cancelled();
     const fs::path file = folder / fmt::format("{}.js", cell.key);
     const bool broken = cell.status == CellStatus::ok || cell.status == CellStatus::invalid;
-    if (broken || cell.status == CellStatus::unbroken) {
-      keys.push_back(cell.key);
-      if (!begins_with(file, cell_view_head(cell.key))) {
-        const Record record = read_record(results, cell.key);
-        TriangleMesh& target = targets[record.identity.shape_digest];
-        if (target.empty()) target = read_target(results, record.identity.shape_digest);
-        write_file_atomically(file, cell_view(record, target, options.view));
-      }
-    }
+    if (!broken && cell.status != CellStatus::unbroken) continue;
+    const bool there =
+        begins_with(file, cell_view_head(cell.key)) || attempt(cell, options, [&] {
+          const Record record = reader.record(cell.key);
+          write_file_atomically(file, cell_view(record, reader.target(record), options.view));
+        });
+    if (there) keys.push_back(cell.key);
     if (options.progress) {
       const auto done = static_cast<double>(&cell - input.cells.data() + 1);
       options.progress->update("cells for the viewer",
@@ -71,18 +100,17 @@ std::vector<std::string> write_cells(const ReportInput& input, const fs::path& r
 }
 
 /// One picture of each method and shape, twice as fine as it is shown.
-void write_pictures(const ReportInput& input, const fs::path& results, const fs::path& folder,
+void write_pictures(const ReportInput& input, Reader& reader, const fs::path& folder,
                     const PageFilesOptions& options) {
   make_folder(folder);
-  const std::vector<SheetRow> rows = sheet_rows(input.cells);
-  for (const SheetRow& row : rows) {
+  for (const SheetRow& row : sheet_rows(input.cells)) {
     for (const auto& [method, cell] : row.cells) {
-      if (options.stop.stop_requested()) throw Cancelled();
-      const Record record = read_record(results, cell->key);
-      const TriangleMesh target = read_target(results, record.identity.shape_digest);
-      const Picture picture =
-          picture_of(record, target, {.width = 2 * kThumbnail, .height = 2 * kThumbnail});
-      write_file_atomically(folder / (picture_name(row, method) + ".png"), png_bytes(picture));
+      attempt(*cell, options, [&] {
+        const Record record = reader.record(cell->key);
+        const Picture picture = picture_of(record, reader.target(record),
+                                           {.width = 2 * kThumbnail, .height = 2 * kThumbnail});
+        write_file_atomically(folder / (picture_name(row, method) + ".png"), png_bytes(picture));
+      });
     }
   }
 }
@@ -94,12 +122,13 @@ fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& s
                     const PageFilesOptions& options) {
   make_folder(folder);
   const std::string script = asset("page.js");
+  Reader reader(results);
   PageOptions page{.script = !script.empty(), .viewed = {}, .commands = options.commands};
   if (page.script) {
-    page.viewed = write_cells(input, results, folder / "cells", options);
+    page.viewed = write_cells(input, reader, folder / "cells", options);
     write_file_atomically(folder / "page.js", script);
   }
-  write_pictures(input, results, folder / "pictures", options);
+  write_pictures(input, reader, folder / "pictures", options);
   page.pictures = true;
   write_file_atomically(folder / "page.css", asset("page.css"));
   std::ifstream suite(results / "suite.json", std::ios::binary);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
@@ -16,14 +18,15 @@ struct PageFilesOptions {
   CellViewOptions view = {};
   std::stop_token stop = {};
   Progress* progress = nullptr;
+  /// Told of each cell that cannot be shown, and why: the rest of the page is made all the same.
+  std::function<void(std::string_view)> message = {};
 };
 
 /// Writes a page that opens from a disk without a network below `folder`, beside the tables and
 /// figures of write_report: index.html, page.css, page.js, suite.json and, for the viewer, a file
 /// cells/<key>.js for each cell, from the records of the results folder. Files of cells that are
 /// there already are kept: their names stand for what is in them. index.html comes last; returns
-/// its path. Throws InputError where it cannot be written, DataError for a record that cannot be
-/// read, Cancelled when it was asked to stop.
+/// its path. Throws InputError where it cannot be written, Cancelled when it was asked to stop.
 std::filesystem::path write_page(const ReportInput& input,
                                  const std::vector<NamedSection>& sections,
                                  const std::filesystem::path& results,

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "program.h"
+#include "tests/app/program.h"
 
 namespace fracbench {
 namespace {

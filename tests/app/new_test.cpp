@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "program.h"
 #include "source_folder.h"
+#include "tests/app/program.h"
 
 namespace fracbench {
 namespace {
