@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/process_tree.h"
 
 extern char** environ;
 
@@ -76,7 +77,7 @@ class Child {
   }
   ~Child() {
     if (pid_ < 0) return;
-    ::kill(-pid_, SIGKILL);
+    kill_all();
     int status = 0;
     while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -100,6 +101,13 @@ class Child {
   }
 
  private:
+  /// With those that left its group.
+  void kill_all() const {
+    const std::vector<pid_t> others = descendants(pid_);
+    ::kill(-pid_, SIGKILL);
+    for (const pid_t other : others) ::kill(other, SIGKILL);
+  }
+
   pid_t pid_ = -1;
 };
 

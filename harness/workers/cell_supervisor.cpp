@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "harness/workers/process_tree.h"
+#include "core/process_tree.h"
 #include "harness/workers/serve_cells.h"
 #include "harness/workers/tree_bytes.h"
 

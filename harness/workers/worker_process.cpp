@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "harness/workers/process_tree.h"
+#include "core/process_tree.h"
 #include "harness/workers/serve_cells.h"
 
 extern char** environ;

@@ -52,6 +52,7 @@ TEST(ChildProcess, ThatIsNotThereIsAnError) {
 }
 
 TEST(ChildProcess, EndsWithAllItsDescendantsWhenAskedToStop) {
+  // The second one leaves the group of the first.
   const TemporaryWorkFolder folder("test");
   std::stop_source source;
   std::thread stopper([&] {
@@ -60,7 +61,8 @@ TEST(ChildProcess, EndsWithAllItsDescendantsWhenAskedToStop) {
     }
     source.request_stop();
   });
-  EXPECT_THROW(run_child(shell("sleep 1000 & echo $! > pid.new; mv pid.new pid; wait"),
+  EXPECT_THROW(run_child(shell("setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 1000' "
+                               "& wait"),
                          {.folder = folder.path(), .stop = source.get_token()}),
                Cancelled);
   stopper.join();

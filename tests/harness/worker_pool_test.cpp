@@ -17,7 +17,7 @@
 #include "harness/runner.h"
 #include "harness/suite_overrides.h"
 #include "harness/summaries.h"
-#include "harness/workers/process_tree.h"
+#include "core/process_tree.h"
 #include "hostile_method.h"
 #include "temporary_folder.h"
 #include "toy_catalog.h"

@@ -1,4 +1,4 @@
-#include "harness/workers/process_tree.h"
+#include "core/process_tree.h"
 
 #include <unistd.h>
 
