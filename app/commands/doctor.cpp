@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <sys/sysinfo.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/command.h"
 #include "core/error.h"
@@ -11,6 +13,7 @@
 #include "harness/suite_files.h"
 #include "methods/deepfracture/trainer.h"
 #include "methods/registry.h"
+#include "reports/page/write_page.h"
 #include "scenarios/shapes.h"
 
 namespace fracbench {
@@ -61,6 +64,29 @@ Json trainer() {
   }
 }
 
+Json viewer() {
+  const bool there = has_viewer();
+  return finding("viewer", there, there ? "in the pages of reports" : "not built",
+                 "npm install --prefix third_party, and build again");
+}
+
+/// A program in one of the folders of PATH.
+bool in_path(const std::string& program) {
+  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    std::error_code ignored;
+    if (fs::is_regular_file(fs::path(folder) / program, ignored)) return true;
+  }
+  return false;
+}
+
+Json latex() {
+  const bool there = in_path("pdflatex");
+  return finding("latex", there,
+                 there ? "pdflatex" : "no pdflatex: reports have LaTeX files all the same",
+                 "to compile them: Debian's texlive-latex-recommended and texlive-pictures");
+}
+
 Json shapes() {
   const std::vector<ShapeInfo> all = list_shapes();
   std::string missing;
@@ -88,7 +114,7 @@ Json look_at_everything() {
     findings.push_back(finding(name, true, value));
   }
   findings.push_back(finding("methods", true, fmt::format("{} built in", methods().size())));
-  for (const auto& look : {memory, disk, device, trainer, shapes, suites})
+  for (const auto& look : {memory, disk, device, trainer, viewer, latex, shapes, suites})
     findings.push_back(look());
   return findings;
 }

@@ -117,6 +117,8 @@ void write_pictures(const ReportInput& input, Reader& reader, const fs::path& fo
 
 }  // namespace
 
+bool has_viewer() { return !asset("page.js").empty(); }
+
 fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& sections,
                     const fs::path& results, const fs::path& folder,
                     const PageFilesOptions& options) {

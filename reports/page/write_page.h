@@ -22,6 +22,9 @@ struct PageFilesOptions {
   std::function<void(std::string_view)> message = {};
 };
 
+/// Whether the program was built with the viewer; else pages have none.
+bool has_viewer();
+
 /// Writes a page that opens from a disk without a network below `folder`, beside the tables and
 /// figures of write_report: index.html, page.css, page.js, suite.json and, for the viewer, a file
 /// cells/<key>.js for each cell, from the records of the results folder. Files of cells that are
