@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "metrics/summary.h"
@@ -35,6 +36,17 @@ std::size_t method_place(const ReportInput& input, std::string_view label) {
     if (std::ranges::find(labels, cell.label) == labels.end()) labels.push_back(cell.label);
   }
   return labels.size();
+}
+
+int cut_resolution(const CellSummary& cell) {
+  const auto options = nlohmann::json::parse(cell.method_options, nullptr, false);
+  if (!options.is_object()) return 0;
+  if (const int chosen = options.value("resolution", 0); chosen > 0) return chosen;
+  double finest = 0;
+  for (const auto& r : options.value("resolutions", nlohmann::json::array())) {
+    if (r.is_number()) finest = std::max(finest, r.get<double>());
+  }
+  return static_cast<int>(finest);
 }
 
 std::vector<CellRef> broken_cells(std::span<const CellRef> cells) {

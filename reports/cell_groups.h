@@ -28,6 +28,10 @@ std::vector<CellGroup> group_cells(const std::vector<CellSummary>& cells);
 /// The place of a method among those of the report: its colour in all figures.
 std::size_t method_place(const ReportInput& input, std::string_view label);
 
+/// The resolution of the grid that a cell's method cuts on: its option, or the finest of its
+/// outputs; 0 for methods without.
+int cut_resolution(const CellSummary& cell);
+
 /// The cells that ended `ok`: what is pooled.
 std::vector<CellRef> broken_cells(std::span<const CellRef> cells);
 

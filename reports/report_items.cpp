@@ -4,9 +4,11 @@
 #include "reports/items/errata_table.h"
 #include "reports/items/fracture_surfaces.h"
 #include "reports/items/fragment_counts.h"
+#include "reports/items/impulse_response.h"
 #include "reports/items/label_agreement.h"
 #include "reports/items/overview.h"
 #include "reports/items/paper_tables.h"
+#include "reports/items/resolution_times.h"
 #include "reports/items/stage_times_table.h"
 #include "reports/items/training.h"
 #include "reports/items/validity_table.h"
@@ -22,10 +24,12 @@ const std::vector<std::unique_ptr<ReportItem>>& report_items() {
     list.push_back(std::make_unique<ValidityTable>());
     list.push_back(std::make_unique<FragmentCounts>());
     list.push_back(std::make_unique<VolumeDistribution>());
+    list.push_back(std::make_unique<ImpulseResponse>());
     list.push_back(std::make_unique<FractureSurfaces>());
     list.push_back(std::make_unique<LabelAgreementTable>());
     list.push_back(std::make_unique<Training>());
     list.push_back(std::make_unique<StageTimesTable>());
+    list.push_back(std::make_unique<ResolutionTimes>());
     list.push_back(std::make_unique<PaperTables>());
     list.push_back(std::make_unique<ErrataTable>());
     return list;

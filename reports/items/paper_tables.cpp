@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 
 #include "methods/registry.h"
 #include "metrics/summary.h"
@@ -44,21 +43,9 @@ std::optional<double> seconds_of(const CellSummary& cell, const std::string& sta
   return found == cell.stages.end() ? std::nullopt : std::optional(found->seconds);
 }
 
-/// The resolution that a cell's method cuts at: the option, or the finest of its outputs.
-int resolution_of(const CellSummary& cell) {
-  const auto options = nlohmann::json::parse(cell.method_options, nullptr, false);
-  if (!options.is_object()) return 0;
-  if (const int chosen = options.value("resolution", 0); chosen > 0) return chosen;
-  double finest = 0;
-  for (const auto& r : options.value("resolutions", nlohmann::json::array())) {
-    if (r.is_number()) finest = std::max(finest, r.get<double>());
-  }
-  return static_cast<int>(finest);
-}
-
 bool measures(const CellSummary& cell, const PublishedStage& stage) {
   return cell.method == stage.method &&
-         (stage.resolution == 0 || resolution_of(cell) == stage.resolution);
+         (stage.resolution == 0 || cut_resolution(cell) == stage.resolution);
 }
 
 std::optional<double> mean_seconds(std::span<const CellRef> cells, const PublishedStage& stage) {

@@ -234,6 +234,39 @@ TEST(PaperTablesItem, stands_beside_what_was_published) {
   EXPECT_EQ(at(kinds, 1, "verdict"), TableCell(std::string("mismatch")));
 }
 
+TEST(ImpulseItem, tells_whether_stronger_impulses_make_more_and_smaller_fragments) {
+  ReportInput input;
+  for (int n = 0; n < 8; ++n) {
+    std::vector<double> volumes(static_cast<std::size_t>(2 + n), 10.0 / (2 + n));
+    input.cells.push_back(broken_cell("bem", "pot", n, volumes));
+    input.cells.back().impulses = {100.0 * (n + 1), 10};
+  }
+  const ReportSection shown = section(input, "impulse_response");
+  const Table response = table(shown, "impulse_response");
+  EXPECT_NEAR(number(at(response, 0, "number of fragments")), 1, 1e-12);
+  EXPECT_NEAR(number(at(response, 0, "volume of the largest")), -1, 1e-12);
+  const Table impulses = table(shown, "impulses");
+  EXPECT_EQ(number(at(impulses, 0, "largest")), 450);
+  EXPECT_EQ(number(at(impulses, 0, "second largest")), 10);
+  ASSERT_EQ(shown.figures.size(), 1u);
+  EXPECT_EQ(shown.figures[0].series[0].x.size(), 8u);
+}
+
+TEST(ResolutionItem, is_there_where_two_resolutions_are) {
+  ReportInput input = two_methods(2, false);
+  EXPECT_TRUE(section(input, "resolution_times").tables.empty());
+  for (CellSummary& cell : input.cells) {
+    const bool coarse = cell.label == "coarse";
+    cell.method_options = coarse ? R"({"resolutions": [64]})" : R"({"resolution": 128})";
+    cell.stages = {{"segmentation", coarse ? 0.01 : 0.08}};
+  }
+  const Table times = table(section(input, "resolution_times"), "resolution_times");
+  ASSERT_EQ(times.rows.size(), 2u);
+  EXPECT_EQ(at(times, 0, "r"), TableCell(std::int64_t{64}));
+  EXPECT_NEAR(number(at(times, 0, "mean")), 0.01, 1e-15);
+  EXPECT_NEAR(number(at(times, 1, "mean")), 0.08, 1e-15);
+}
+
 TEST(ClaimsItem, judges_what_is_nearer_to_the_reference) {
   // The subject has the fragments of the reference, the other one those of another law.
   ReportInput input = two_methods(8, true);
