@@ -21,6 +21,7 @@ namespace {
 struct ReportArguments {
   std::filesystem::path results;
   std::filesystem::path out;
+  bool meshes = false;
 };
 
 /// Who measured it on what. Records of one folder may come from several machines.
@@ -31,6 +32,9 @@ std::vector<std::string> provenance_of(const Results& results) {
   if (!results.suite.summary.empty()) lines.push_back(results.suite.summary);
   lines.push_back(fmt::format("{} of the suite's {} cells have a record.", results.cells.size(),
                               results.suite.cells));
+  lines.push_back(fmt::format("Seed {}, from which every random number follows; {} repeat(s).",
+                              results.suite.values.value("seed", std::uint64_t{1}),
+                              results.suite.values.value("repeats", 1)));
   for (const auto& [cpu, count] : cells_by_cpu) {
     lines.push_back(fmt::format("{} of them were measured on {}.", count, cpu));
   }
@@ -77,6 +81,7 @@ ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
   bool all_shown = true;
   const std::filesystem::path page = write_page(input, sections, arguments.results, arguments.out,
                                                 {.commands = commands_of(results),
+                                                 .meshes = arguments.meshes,
                                                  .stop = stop,
                                                  .progress = &progress,
                                                  .message = [&](std::string_view why) {
@@ -96,6 +101,8 @@ void add_report_command(CLI::App& app, Action& chosen) {
   auto a = std::make_shared<ReportArguments>();
   command->add_option("results", a->results, "Results folder of 'fracbench run'")->required();
   command->add_option("--out", a->out, "Folder of the report [<results>/report]");
+  command->add_flag("--meshes", a->meshes,
+                    "Also the whole meshes of every cell, with their motion, as glTF");
   command->callback(
       [&chosen, a] { chosen = [a](const std::stop_token& stop) { return report(*a, stop); }; });
 }

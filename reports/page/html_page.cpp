@@ -120,7 +120,10 @@ std::string cells_html(const ReportInput& input, const PageOptions& options) {
             cell_html(number_or_nothing(value_of(cell, "fragment_count"))) +
             cell_html(agreement == agreements.end() ? TableCell() : TableCell(agreement->second)) +
             cell_html(cell.total_seconds) +
-            fmt::format("<td><code>{}</code></td></tr>\n", cell.key.substr(0, 12));
+            fmt::format("<td><code>{}</code>{}</td></tr>\n", cell.key.substr(0, 12),
+                        seen && options.meshes
+                            ? fmt::format(" <a href=\"cells/{}.glb\" download>glTF</a>", cell.key)
+                            : "");
   }
   return html +
          "</tbody></table></div>\n<p><a href=\"cells.csv\" download>cells.csv</a> has every value "

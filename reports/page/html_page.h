@@ -16,6 +16,7 @@ struct PageOptions {
   /// Keys of the cells that there is a file cells/<key>.js for, which the viewer shows.
   std::vector<std::string> viewed = {};
   bool pictures = false;  ///< there is pictures/<picture_name>.png for each picture of sheet_rows
+  bool meshes = false;    ///< there is cells/<key>.glb for each of `viewed`
   std::vector<std::string> commands = {};  ///< that make the results and this report
 };
 

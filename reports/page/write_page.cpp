@@ -9,10 +9,12 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "geometry/write_motion.h"
 #include "harness/record_store.h"
 #include "reports/page/html_page.h"
 #include "reports/picture/record_picture.h"
 #include "reports/picture/sheet.h"
+#include "reports/scene_parts.h"
 
 namespace fracbench {
 
@@ -88,7 +90,14 @@ std::vector<std::string> write_cells(const ReportInput& input, Reader& reader,
           const Record record = reader.record(cell.key);
           write_file_atomically(file, cell_view(record, reader.target(record), options.view));
         });
-    if (there) keys.push_back(cell.key);
+    const fs::path mesh = folder / fmt::format("{}.glb", cell.key);
+    const bool whole = !options.meshes || fs::exists(mesh) || attempt(cell, options, [&] {
+      const Record record = reader.record(cell.key);
+      const SceneResult& scene = record.outcome.scene;
+      write_motion(mesh, reader.target(record), scene.fragments, scene.trajectory,
+                   ball_radii(record));
+    });
+    if (there && whole) keys.push_back(cell.key);
     if (options.progress) {
       const auto done = static_cast<double>(&cell - input.cells.data() + 1);
       options.progress->update("cells for the viewer",
@@ -132,6 +141,7 @@ fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& s
   }
   write_pictures(input, reader, folder / "pictures", options);
   page.pictures = true;
+  page.meshes = options.meshes;
   write_file_atomically(folder / "page.css", asset("page.css"));
   std::ifstream suite(results / "suite.json", std::ios::binary);
   write_file_atomically(folder / "suite.json",

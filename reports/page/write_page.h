@@ -16,6 +16,7 @@ namespace fracbench {
 struct PageFilesOptions {
   std::vector<std::string> commands = {};  ///< that make the results and this report
   CellViewOptions view = {};
+  bool meshes = false;  ///< also whole meshes with their motion, cells/<key>.glb
   std::stop_token stop = {};
   Progress* progress = nullptr;
   /// Told of each cell that cannot be shown, and why: the rest of the page is made all the same.

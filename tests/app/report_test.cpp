@@ -56,6 +56,16 @@ TEST_F(ReportCommand, WritesAPageThatHasAFileForEachCell) {
   EXPECT_EQ(folder_.read("report/index.html"), page) << "the same records, the same page";
 }
 
+TEST_F(ReportCommand, LinksWholeMeshesWhereTheyAreWanted) {
+  EXPECT_EQ(run("report results --out report --meshes").exit_code, 0);
+  const std::string page = folder_.read("report/index.html");
+  for (const fs::path& record : files("results/records")) {
+    const std::string name = "cells/" + record.stem().string() + ".glb";
+    EXPECT_THAT(page, HasSubstr(name));
+    EXPECT_EQ(folder_.read("report/" + name).substr(0, 4), "glTF");
+  }
+}
+
 TEST_F(ReportCommand, ShowsTheRestWhereSomethingIsDamagedOrMissing) {
   fs::resize_file(files("results/records").front(), 1000);
   const Answer partial = run("report results --out report");
