@@ -159,10 +159,11 @@ std::vector<Erratum> published_errata() {
   });
 }
 
-std::optional<double> published_value(const PublishedRatio& ratio, const std::string& shape) {
+std::optional<double> published_value(const PublishedRatio& ratio, const std::string& shape,
+                                      const std::vector<PublishedTime>& times) {
   std::optional<double> over;
   std::optional<double> under;
-  for (const PublishedTime& time : published_times()) {
+  for (const PublishedTime& time : times) {
     if (time.shape != shape) continue;
     if (time.stage == ratio.over) over = time.seconds;
     if (time.stage == ratio.under) under = time.seconds;

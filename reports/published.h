@@ -71,7 +71,8 @@ std::vector<PublishedMethod> published_methods();
 Claims published_claims();
 std::vector<Erratum> published_errata();
 
-/// The published value of a ratio for a shape; nothing where one of its times is not published.
-std::optional<double> published_value(const PublishedRatio& ratio, const std::string& shape);
+/// The value of a ratio for a shape by these times; nothing where one of them is not among them.
+std::optional<double> published_value(const PublishedRatio& ratio, const std::string& shape,
+                                      const std::vector<PublishedTime>& times);
 
 }  // namespace fracbench

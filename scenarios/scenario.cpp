@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/material_json.h"
 #include "scenarios/break_test.h"
 
 namespace fracbench {
@@ -11,13 +12,7 @@ namespace {
 nlohmann::ordered_json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json to_json(const Material& material) {
-  nlohmann::ordered_json json;
-  json["young_modulus"] = material.young_modulus;
-  json["poisson_ratio"] = material.poisson_ratio;
-  json["density"] = material.density;
-  json["strength"] = material.strength;
-  json["toughness"] = material.toughness;
-  json["compressive_factor"] = material.compressive_factor;
+  nlohmann::ordered_json json = breaking_json(material);
   json["friction"] = material.friction;
   json["restitution"] = material.restitution;
   return json;

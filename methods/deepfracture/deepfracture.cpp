@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/material_json.h"
 #include "core/temporary_folder.h"
 #include "methods/deepfracture/deepfracture_body.h"
 #include "methods/deepfracture/patterns.h"
@@ -42,15 +43,6 @@ class WorkFolder {
   fs::path path_;
   std::optional<TemporaryWorkFolder> temporary_;
 };
-
-nlohmann::ordered_json to_json(const Material& m) {
-  return {{"young_modulus", m.young_modulus},
-          {"poisson_ratio", m.poisson_ratio},
-          {"density", m.density},
-          {"strength", m.strength},
-          {"toughness", m.toughness},
-          {"compressive_factor", m.compressive_factor}};
-}
 
 neural::Model trained(const neural::DataSet& data, const Settings& settings,
                       const Context& context) {
@@ -97,7 +89,7 @@ std::unique_ptr<Breakable> DeepFractureMethod::prepare(const Target& target,
   {
     const auto stage = context.timer.stage("distance_fields");
     data = make_data_set(target, learning, settings, context);
-    data.provenance = nlohmann::ordered_json{{"material", to_json(target.material)},
+    data.provenance = nlohmann::ordered_json{{"material", breaking_json(target.material)},
                                              {"truncation", settings.truncation}}
                           .dump();
   }

@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/material_json.h"
 #include "geometry/pieces_of_fragments.h"
 #include "geometry/read_mesh.h"
 #include "geometry/tag_surfaces.h"
@@ -23,15 +24,6 @@ using Json = nlohmann::ordered_json;
 constexpr int kVersion = 1;
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-Json material_json(const Material& m) {
-  return {{"young_modulus", m.young_modulus},
-          {"poisson_ratio", m.poisson_ratio},
-          {"density", m.density},
-          {"strength", m.strength},
-          {"toughness", m.toughness},
-          {"compressive_factor", m.compressive_factor}};
-}
 
 Json impulses_json(const Impact& impact) {
   Json list = Json::array();
@@ -61,7 +53,7 @@ void write_request(const fs::path& folder, const Target& target, const Impact& i
                   {"seed", request.seed},
                   {"threads", request.threads},
                   {"settings", request.settings},
-                  {"material", material_json(target.material)},
+                  {"material", breaking_json(target.material)},
                   {"impulses", impulses_json(impact)},
                   {"time_step", impact.time_step},
                   {"velocity", vector_json(impact.body.velocity)},

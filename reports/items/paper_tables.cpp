@@ -122,9 +122,10 @@ Table table_2(const ReportInput& input) {
                           {"measured", "s"},
                           {"verdict"},
                           {"erratum"}}};
+  const std::vector<PublishedTime> times = published_times();
   for (const std::string& shape : shapes_of(input)) {
     const std::vector<CellRef> cells = broken_cells_of(input, shape);
-    for (const PublishedTime& time : published_times()) {
+    for (const PublishedTime& time : times) {
       if (time.shape != lower_case(shape)) continue;
       table.rows.push_back(
           {shape, time.stage.method,
@@ -143,10 +144,12 @@ Table ratio_table(const ReportInput& input) {
       .title = "Table 2: ratios of times",
       .notes = {"Of two stages on one shape, each on one machine. " + verdict_rule()},
       .columns = {{"shape"}, {"ratio"}, {"published"}, {"measured"}, {"verdict"}, {"erratum"}}};
+  const std::vector<PublishedTime> times = published_times();
+  const std::vector<PublishedRatio> ratios = published_ratios();
   for (const std::string& shape : shapes_of(input)) {
     const std::vector<CellRef> cells = broken_cells_of(input, shape);
-    for (const PublishedRatio& ratio : published_ratios()) {
-      const auto published = published_value(ratio, lower_case(shape));
+    for (const PublishedRatio& ratio : ratios) {
+      const auto published = published_value(ratio, lower_case(shape), times);
       if (!published) continue;
       const auto quotient = [&](std::span<const CellRef> some) -> std::optional<double> {
         const auto over = mean_seconds(some, ratio.over);

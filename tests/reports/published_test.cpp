@@ -62,12 +62,13 @@ TEST(PublishedErrata, that_values_name_are_there) {
 TEST(PublishedRatios, follow_from_the_times) {
   for (const PublishedRatio& ratio : published_ratios()) {
     for (const char* shape : {"pot", "bunny", "base", "squirrel", "mean"}) {
-      EXPECT_TRUE(published_value(ratio, shape)) << ratio.name << shape;
+      EXPECT_TRUE(published_value(ratio, shape, published_times())) << ratio.name << shape;
     }
-    EXPECT_FALSE(published_value(ratio, "teapot"));
+    EXPECT_FALSE(published_value(ratio, "teapot", published_times()));
   }
   // 15.5 min over 8.72 s.
-  EXPECT_NEAR(published_value(published_ratios().front(), "squirrel").value(), 106.65, 0.01);
+  EXPECT_NEAR(published_value(published_ratios().front(), "squirrel", published_times()).value(),
+              106.65, 0.01);
 }
 
 TEST(PublishedMethods, are_the_five_of_table_1) {
