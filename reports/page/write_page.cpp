@@ -85,19 +85,22 @@ std::vector<std::string> write_cells(const ReportInput& input, Reader& reader,
     const fs::path file = folder / fmt::format("{}.js", cell.key);
     const bool broken = cell.status == CellStatus::ok || cell.status == CellStatus::invalid;
     if (!broken && cell.status != CellStatus::unbroken) continue;
-    const bool there =
-        begins_with(file, cell_view_head(cell.key)) || attempt(cell, options, [&] {
-          const Record record = reader.record(cell.key);
-          write_file_atomically(file, cell_view(record, reader.target(record), options.view));
-        });
     const fs::path mesh = folder / fmt::format("{}.glb", cell.key);
-    const bool whole = !options.meshes || fs::exists(mesh) || attempt(cell, options, [&] {
-      const Record record = reader.record(cell.key);
-      const SceneResult& scene = record.outcome.scene;
-      write_motion(mesh, reader.target(record), scene.fragments, scene.trajectory,
-                   ball_radii(record));
-    });
-    if (there && whole) keys.push_back(cell.key);
+    const bool has_view = begins_with(file, cell_view_head(cell.key));
+    const bool has_mesh = !options.meshes || fs::exists(mesh);
+    const bool there =
+        (has_view && has_mesh) || attempt(cell, options, [&] {
+          const Record record = reader.record(cell.key);
+          const TriangleMesh& target = reader.target(record);
+          if (!has_view) {
+            write_file_atomically(file, cell_view(record, target, options.view));
+          }
+          if (!has_mesh) {
+            const SceneResult& scene = record.outcome.scene;
+            write_motion(mesh, target, scene.fragments, scene.trajectory, ball_radii(record));
+          }
+        });
+    if (there) keys.push_back(cell.key);
     if (options.progress) {
       const auto done = static_cast<double>(&cell - input.cells.data() + 1);
       options.progress->update("cells for the viewer",
