@@ -42,6 +42,7 @@ Json impacts_json(const std::vector<Impact>& impacts) {
     const BreakTestValues& test = impact.break_test;
     list.push_back({{"time", impact.time},
                     {"piece", impact.fragment},
+                    {"overload", impact.overload},
                     {"impulses", impulses},
                     {"break_test",
                      {{"total_impulse", test.total_impulse},

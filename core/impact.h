@@ -50,6 +50,9 @@ struct Impact {
   double time = 0;                ///< start of that step since the scene began, s
   double time_step = 0;           ///< s
   BreakTestValues break_test;
+  /// The impulse over the one at which the same blow would just break the body, by the break test
+  /// of the scene; 0 where that is not known.
+  double overload = 0;
   std::int32_t fragment = -1;  ///< which piece broke: -1 the target itself, else the running
                                ///< number of the piece (see Fragment::piece)
 };

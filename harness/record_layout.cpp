@@ -145,7 +145,7 @@ Fragments get_fragments(const DataTree& tree, const std::string& prefix) {
 }
 
 void put_impacts(DataTree& tree, const std::string& prefix, const std::vector<Impact>& impacts) {
-  Reals time, time_step, body, break_test, point, direction, magnitude, normal, area, striker;
+  Reals time, time_step, body, break_test, overload, point, direction, magnitude, normal, area, striker;
   Integers fragment, face;
   Starts start = {0};
   for (const Impact& impact : impacts) {
@@ -159,6 +159,7 @@ void put_impacts(DataTree& tree, const std::string& prefix, const std::vector<Im
     const BreakTestValues& test = impact.break_test;
     break_test.insert(break_test.end(), {test.total_impulse, test.balanced_force,
                                          test.eq2_face_stress, test.eq2_patch_stress});
+    overload.push_back(impact.overload);
     for (const Impulse& impulse : impact.impulses) {
       append(point, impulse.point);
       append(direction, impulse.direction);
@@ -178,6 +179,7 @@ void put_impacts(DataTree& tree, const std::string& prefix, const std::vector<Im
   tree.put(prefix + "/fragment", fragment);
   tree.put(prefix + "/body", body, 13);
   tree.put(prefix + "/break_test", break_test, 4);
+  tree.put(prefix + "/overload", overload);
   tree.put(prefix + "/impulse_start", start);
   tree.put(prefix + "/impulse_point", point, 3);
   tree.put(prefix + "/impulse_direction", direction, 3);
@@ -194,6 +196,9 @@ std::vector<Impact> get_impacts(const DataTree& tree, const std::string& prefix)
   const Integers fragment = tree.integers(prefix + "/fragment");
   const Reals body = tree.reals(prefix + "/body", 13);
   const Reals break_test = tree.reals(prefix + "/break_test", 4);
+  // Records of earlier programs lack it.
+  const Reals overload = tree.has(prefix + "/overload") ? tree.reals(prefix + "/overload")
+                                                        : Reals(time.size(), 0.0);
   const Reals point = tree.reals(prefix + "/impulse_point", 3);
   const Reals direction = tree.reals(prefix + "/impulse_direction", 3);
   const Reals magnitude = tree.reals(prefix + "/impulse_magnitude");
@@ -205,7 +210,7 @@ std::vector<Impact> get_impacts(const DataTree& tree, const std::string& prefix)
   const std::size_t n = time.size();
   const std::size_t m = magnitude.size();
   require(time_step.size() == n && fragment.size() == n && body.size() == 13 * n &&
-              break_test.size() == 4 * n && start.size() == n + 1 && point.size() == 3 * m &&
+              break_test.size() == 4 * n && overload.size() == n && start.size() == n + 1 && point.size() == 3 * m &&
               direction.size() == 3 * m && face.size() == m && normal.size() == 3 * m &&
               area.size() == m && striker.size() == 7 * m,
           prefix);
@@ -220,6 +225,7 @@ std::vector<Impact> get_impacts(const DataTree& tree, const std::string& prefix)
     impact.body.angular_velocity = vector_at(body, 13 * k + 10);
     const double* test = &break_test[4 * k];
     impact.break_test = {test[0], test[1], test[2], test[3]};
+    impact.overload = overload[k];
     for (std::size_t i = start[k]; i < start[k + 1]; ++i) {
       impact.impulses.push_back({vector_at(point, 3 * i), vector_at(direction, 3 * i), magnitude[i],
                                  face[i], vector_at(normal, 3 * i), area[i]});

@@ -53,16 +53,22 @@ BreakTestValues break_test_values(const std::vector<Impulse>& impulses,
   return values;
 }
 
-bool breaks(BreakTest test, const BreakTestValues& values, const Material& material) {
+double overload(BreakTest test, const BreakTestValues& values, const Material& material) {
   switch (test) {
     case BreakTest::authors:
-      return values.total_impulse >= kBreakingImpulse || values.balanced_force >= kBreakingForce;
+      return std::max(values.total_impulse / kBreakingImpulse,
+                      values.balanced_force / kBreakingForce);
     case BreakTest::eq2_face:
-      return values.eq2_face_stress > material.strength;
+      return values.eq2_face_stress / material.strength;
     case BreakTest::eq2_patch:
-      return values.eq2_patch_stress > material.strength;
+      return std::min(std::pow(values.eq2_patch_stress / material.strength, 5),
+                      std::numeric_limits<double>::max());
   }
-  return false;
+  return 0;
+}
+
+bool breaks(BreakTest test, const BreakTestValues& values, const Material& material) {
+  return overload(test, values, material) >= 1;
 }
 
 const std::vector<std::string>& break_test_names() {

@@ -37,6 +37,11 @@ BreakTestValues break_test_values(const std::vector<Impulse>& impulses,
                                   const std::vector<ContactSpeed>& speeds, const Material& material,
                                   double time_step);
 
+/// The impulse over the critical one, at which the same blow would just break a body of this
+/// material: the values of `authors` and `eq2-face` grow in proportion to the impulse, that of
+/// `eq2-patch` with its fifth root, since Hertz's patch grows with the power 4/5 of the speed.
+double overload(BreakTest test, const BreakTestValues& values, const Material& material);
+
 /// Whether a body of this material breaks.
 bool breaks(BreakTest test, const BreakTestValues& values, const Material& material);
 

@@ -19,7 +19,8 @@ constexpr double kFarthestShare = 0.02;
 
 }  // namespace
 
-Impact impact_at(const Target& target, const Vec3& point, const Vec3& direction, double magnitude) {
+Impact impact_at(const Target& target, const Vec3& point, const Vec3& direction, double magnitude,
+                 BreakTest test) {
   if (!point.allFinite() || !direction.allFinite() || !std::isfinite(magnitude)) {
     throw InputError("impact: point, direction and impulse must be finite numbers");
   }
@@ -63,6 +64,7 @@ Impact impact_at(const Target& target, const Vec3& point, const Vec3& direction,
       break_test_values(impact.impulses, impact.strikers,
                         {{.approach_speed = speed, .effective_mass = effective_mass}},
                         target.material, impact.time_step);
+  impact.overload = overload(test, impact.break_test, target.material);
   return impact;
 }
 

@@ -110,7 +110,8 @@ Broken break_by_scene(const Scenario& scenario, const Target& target,
 
 Impact given_impact(const FractureArguments& arguments, const Target& target) {
   const std::vector<double> v = parse_numbers(arguments.impact, 7, "--impact", kImpactForm);
-  return impact_at(target, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]);
+  return impact_at(target, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6],
+                   break_test_from(arguments.break_test, "--break-test"));
 }
 
 Broken break_by_impact(const Impact& impact, const Target& target, const Breakable& breakable,
@@ -250,9 +251,9 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
   command
       ->add_option(
           "--break-test", a->break_test,
-          "When a body that a ball hits breaks (docs/scenarios.md); light bodies need eq2-patch")
+          "When a body that is hit breaks (docs/scenarios.md); light bodies need eq2-patch. With "
+          "--impact the method decides; those that ask go by this test")
       ->check(CLI::IsMember(break_test_names()))
-      ->excludes("--impact")
       ->excludes("--scenario")
       ->capture_default_str();
   command

@@ -55,6 +55,7 @@ void write_request(const fs::path& folder, const Target& target, const Impact& i
                   {"settings", request.settings},
                   {"material", breaking_json(target.material)},
                   {"impulses", impulses_json(impact)},
+                  {"overload", impact.overload},
                   {"time_step", impact.time_step},
                   {"velocity", vector_json(impact.body.velocity)},
                   {"angular_velocity", vector_json(impact.body.angular_velocity)}};

@@ -64,12 +64,10 @@ std::vector<std::int32_t> ModesBody::groups_after(const Impact& impact) const {
   const Strength& strength = model_->strength();
   double threshold = strength.raw_threshold;
   if (!strength.raw) {
-    const auto critical =
-        critical_impulse(impact.break_test, model_->material(), strength.break_test);
-    if (!critical) return together;
+    if (impact.overload < 1) return together;
     // Where the body answers less than elsewhere, it must still break when the break test says so.
     const double jump = parting_jump(data.projection, pieces_, velocities) / total;
-    threshold = *critical * std::min(data.typical_jump, jump);
+    threshold = total / impact.overload * std::min(data.typical_jump, jump);
   }
   return held_together(data.projection, pieces_, velocities, threshold);
 }

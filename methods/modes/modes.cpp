@@ -95,8 +95,7 @@ struct Settings {
 
 modes::Strength strength_of(const Options& options) {
   return {.raw = options.text("threshold") == "raw",
-          .raw_threshold = options.number("raw_threshold"),
-          .break_test = options.text("break_test")};
+          .raw_threshold = options.number("raw_threshold")};
 }
 
 std::unique_ptr<Breakable> body_of(const Target& target, modes::ModelData data,
@@ -185,7 +184,7 @@ OptionsSchema ModesMethod::options() const {
       {.name = "threshold",
        .fallback = std::string("calibrated"),
        .unit = "",
-       .summary = "when pieces part: calibrated: breaks where the break test does; raw: at a "
+       .summary = "when pieces part: calibrated: breaks where the scene's break test does; raw: at a "
                   "difference of velocity of raw_threshold",
        .choices = {"calibrated", "raw"}},
       {.name = "raw_threshold",
@@ -193,11 +192,6 @@ OptionsSchema ModesMethod::options() const {
        .unit = "m/s",
        .summary = "pieces stay joined where their velocities differ by less; for threshold = raw",
        .minimum = 0},
-      {.name = "break_test",
-       .fallback = std::string("authors"),
-       .unit = "",
-       .summary = "the scene's break test, which the calibrated threshold agrees with",
-       .choices = {"authors", "eq2-face", "eq2-patch"}},
   };
 }
 

@@ -25,6 +25,7 @@ Impact sample_impact(Random& random, std::size_t impulses) {
   impact.body.velocity = random.unit_vector();
   impact.time = random.uniform();
   impact.break_test = {1, 2, 3, 4};
+  impact.overload = 1.5;
   impact.fragment = 7;
   return impact;
 }

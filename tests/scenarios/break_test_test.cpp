@@ -85,6 +85,21 @@ TEST(BreakTest, TheContactPatchIsThatOfHertz) {
   EXPECT_NEAR(values.eq2_patch_stress * area * kStep / 4e4, 1, 0.01);
 }
 
+TEST(BreakTest, TheOverloadTellsTheImpulseThatWouldJustBreak) {
+  // Hertz's patch grows with the speed, which is that of the impulse here.
+  const auto blow_at = [](double impulse) {
+    return values_of({blow(Vec3::UnitX(), impulse)}, impulse / 950 / 1.4);
+  };
+  const Material material;
+  for (const BreakTest test : {BreakTest::authors, BreakTest::eq2_face, BreakTest::eq2_patch}) {
+    for (double impulse = 10; impulse < 1e7; impulse *= 1.7) {
+      const double critical = impulse / overload(test, blow_at(impulse), material);
+      EXPECT_FALSE(breaks(test, blow_at(0.9999 * critical), material)) << name_of(test);
+      EXPECT_TRUE(breaks(test, blow_at(1.0001 * critical), material)) << name_of(test);
+    }
+  }
+}
+
 TEST(BreakTest, HasNamesThatReadBack) {
   for (const BreakTest test : {BreakTest::authors, BreakTest::eq2_face, BreakTest::eq2_patch}) {
     EXPECT_EQ(break_test_from(name_of(test), "here"), test);
