@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "core/text.h"
 #include "harness/cost_model.h"
 #include "harness/learning_plan.h"
 #include "harness/suite_files.h"
@@ -59,6 +60,13 @@ Suite read_suite(SuiteArguments& a, const Catalog& catalog) {
   }
   if (a.out.empty()) a.out = std::filesystem::path("results") / suite.name;
   return suite;
+}
+
+std::string command_of(const SuiteArguments& a) {
+  std::string command = "fracbench run " + shell_word(a.suite);
+  if (!a.scale.empty()) command += " --scale " + shell_word(a.scale);
+  for (const std::string& setting : a.settings) command += " --set " + shell_word(setting);
+  return command;
 }
 
 CellWorkers::CellWorkers(const Plan& plan, const Catalog& catalog,

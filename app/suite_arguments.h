@@ -36,6 +36,9 @@ void add_suite_options(CLI::App& command, SuiteArguments& arguments);
 /// Reads the suite with all changes, and fills in the results folder. Throws InputError.
 Suite read_suite(SuiteArguments& arguments, const Catalog& catalog);
 
+/// The command that measures the whole suite again, as far as it decides the results.
+std::string command_of(const SuiteArguments& arguments);
+
 /// The processes in which cells are measured, unless the user wants them in this one.
 class CellWorkers {
  public:

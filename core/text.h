@@ -14,4 +14,7 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
 /// "; did you mean 'x'?" where a candidate is near, else "; known: a, b, c".
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
+/// As a shell reads it as one word: itself, or in single quotes.
+std::string shell_word(std::string_view text);
+
 }  // namespace fracbench

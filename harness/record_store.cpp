@@ -147,17 +147,16 @@ TriangleMesh RecordStore::read_shape(const std::string& digest) const {
   return read_target(folder_, digest);
 }
 
-void RecordStore::bind_suite(const nlohmann::ordered_json& values, std::string_view summary,
-                             std::size_t cells) const {
+void RecordStore::bind_suite(const StoredSuite& suite) const {
   const Claim claim = wait_for_claim("suite");
   const fs::path file = folder_ / "suite.json";
   if (fs::exists(file)) {
     const std::vector<std::string> differences =
-        differing_values(read_stored_suite(folder_), values);
+        differing_values(read_stored_suite(folder_), suite.values);
     if (!differences.empty()) throw InputError(describe_other_suite(folder_, differences));
     return;
   }
-  write_file_atomically(file, stored_suite_text(values, summary, cells), part_of(file));
+  write_file_atomically(file, stored_suite_text(suite), part_of(file));
 }
 
 void RecordStore::remove_leftovers() const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +8,7 @@
 
 #include "harness/claim.h"
 #include "harness/record.h"
+#include "harness/stored_suite.h"
 
 namespace fracbench {
 
@@ -65,10 +65,9 @@ class RecordStore {
   /// Throws DataError where it is missing or damaged.
   TriangleMesh read_shape(const std::string& digest) const;
 
-  /// Makes the folder that of a suite: `values` is to_json(Suite), `cells` their number. Throws
-  /// InputError, naming the values that differ, where it belongs to another one.
-  void bind_suite(const nlohmann::ordered_json& values, std::string_view summary,
-                  std::size_t cells) const;
+  /// Makes the folder that of a suite. Throws InputError, naming the values that differ, where it
+  /// belongs to another one.
+  void bind_suite(const StoredSuite& suite) const;
 
  private:
   void remove_leftovers() const;

@@ -345,7 +345,11 @@ std::size_t set_aside_outdated(const Plan& plan, const RecordStore& store) {
 
 RunResult run_suite(const Plan& plan, const Catalog& catalog, const RunOptions& options) {
   const RecordStore store(options.folder);
-  store.bind_suite(to_json(plan.suite), plan.suite.summary, plan.suite_cells);
+  store.bind_suite({.name = plan.suite.name,
+                    .summary = plan.suite.summary,
+                    .values = to_json(plan.suite),
+                    .cells = plan.suite_cells,
+                    .command = options.command});
   for (const PlannedShape& shape : plan.shapes) store.write_shape(shape.digest, shape.shape.mesh);
   const std::size_t outdated = set_aside_outdated(plan, store);
   if (outdated > 0 && options.message) {

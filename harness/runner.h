@@ -34,6 +34,7 @@ using ExecuteCell =
 
 struct RunOptions {
   std::filesystem::path folder;  ///< of the results
+  std::string command = {};      ///< that a user gave; kept in a new folder, for its reports
   int jobs = 1;                  ///< cells at a time
   std::stop_token stop = {};     ///< asked to stop: cells under way are given up
   /// Both are called from the thread that called run_suite; progress some times a second.

@@ -48,7 +48,8 @@ StoredSuite read_stored_suite(const std::filesystem::path& folder) {
     StoredSuite stored{.name = json.at("suite").at("name"),
                        .summary = json.at("summary"),
                        .values = json.at("suite"),
-                       .cells = json.at("cells")};
+                       .cells = json.at("cells"),
+                       .command = json.value("command", "")};
     if (json.at("digest") == digest_of(stored.values)) return stored;
   } catch (const nlohmann::json::exception&) {
   }
@@ -56,9 +57,12 @@ StoredSuite read_stored_suite(const std::filesystem::path& folder) {
       "{}: is damaged; remove it and run the suite again: good records are kept", file.string()));
 }
 
-std::string stored_suite_text(const Json& values, std::string_view summary, std::size_t cells) {
-  const Json json{
-      {"summary", summary}, {"cells", cells}, {"digest", digest_of(values)}, {"suite", values}};
+std::string stored_suite_text(const StoredSuite& suite) {
+  const Json json{{"summary", suite.summary},
+                  {"command", suite.command},
+                  {"cells", suite.cells},
+                  {"digest", digest_of(suite.values)},
+                  {"suite", suite.values}};
   return json.dump(2) + "\n";
 }
 

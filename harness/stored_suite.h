@@ -15,14 +15,14 @@ struct StoredSuite {
   std::string summary;
   nlohmann::ordered_json values;  ///< see to_json(Suite)
   std::size_t cells = 0;          ///< of the whole suite
+  std::string command = {};       ///< that measures it; empty where that was not kept
 };
 
 /// Throws InputError where the folder is no results folder or the file is damaged.
 StoredSuite read_stored_suite(const std::filesystem::path& folder);
 
 /// The text of suite.json.
-std::string stored_suite_text(const nlohmann::ordered_json& values, std::string_view summary,
-                              std::size_t cells);
+std::string stored_suite_text(const StoredSuite& suite);
 
 /// "seed: 1 there, 7 here" for each value that is not the same.
 std::vector<std::string> differing_values(const StoredSuite& stored,

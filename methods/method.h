@@ -9,6 +9,7 @@
 #include "core/context.h"
 #include "core/fragments.h"
 #include "core/options.h"
+#include "core/publication.h"
 #include "core/target.h"
 #include "methods/validation.h"
 
@@ -18,7 +19,7 @@ namespace fracbench {
 struct MethodInfo {
   std::string name;     ///< as in suites and on the command line
   std::string summary;  ///< one line
-  std::string citation;
+  std::vector<Publication> publications;  ///< where it is described; empty: nowhere
   std::string shape_type;       ///< "Voronoi", "crack propagation", "cutting", ...
   bool retains_surface = true;  ///< fragments carry the original surface unchanged
   bool refracture = false;      ///< pieces may break again

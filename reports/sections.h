@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@ struct NamedSection {
   ReportSection section;
 };
 
-/// The sections of all items that have something to show, in their order.
-std::vector<NamedSection> render_sections(const ReportInput& input);
+/// The sections of all items that have something to show, in their order; with `names`, of those
+/// alone. Throws InputError for a name that is not there, with the nearest one.
+std::vector<NamedSection> render_sections(const ReportInput& input,
+                                          std::span<const std::string> names = {});
 
 }  // namespace fracbench

@@ -25,7 +25,7 @@ Json list_methods() {
     const MethodInfo info = method->info();
     list.push_back({{"name", info.name},
                     {"summary", info.summary},
-                    {"citation", info.citation},
+                    {"citation", citation(info.publications)},
                     {"shape_type", info.shape_type},
                     {"retains_surface", info.retains_surface},
                     {"refracture", info.refracture},

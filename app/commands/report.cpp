@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/command_progress.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "harness/build_info.h"
 #include "harness/reference_agreement.h"
 #include "harness/summaries.h"
@@ -21,6 +22,7 @@ namespace {
 struct ReportArguments {
   std::filesystem::path results;
   std::filesystem::path out;
+  std::vector<std::string> items;
   bool meshes = false;
 };
 
@@ -54,12 +56,14 @@ ReportInput input_from(const Results& results, const std::filesystem::path& fold
           .seed = results.suite.values.value("seed", std::uint64_t{1})};
 }
 
-/// That make the results and the report anew. A suite file by the name of the suite comes with the
-/// program, or lies where its user keeps it.
+/// That make the results and the report anew.
 std::vector<std::string> commands_of(const Results& results) {
-  const std::string folder = fmt::format("results/{}", results.suite.name);
-  return {fmt::format("fracbench run {} --out {}", results.suite.name, folder),
-          fmt::format("fracbench report {}", folder)};
+  const std::string folder = "results/" + results.suite.name;
+  const std::string measure = results.suite.command.empty()
+                                  ? "fracbench run " + shell_word(results.suite.name)
+                                  : results.suite.command;
+  return {fmt::format("{} --out {}", measure, shell_word(folder)),
+          fmt::format("fracbench report {}", shell_word(folder))};
 }
 
 ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
@@ -74,7 +78,7 @@ ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
     return ExitCode::not_measured;
   }
   const ReportInput input = input_from(results, arguments.results);
-  const std::vector<NamedSection> sections = render_sections(input);
+  const std::vector<NamedSection> sections = render_sections(input, arguments.items);
   const std::filesystem::path text = write_report(input, sections, arguments.out);
   write_files(render_latex(input, sections), arguments.out);
   CommandProgress progress;
@@ -101,6 +105,11 @@ void add_report_command(CLI::App& app, Action& chosen) {
   auto a = std::make_shared<ReportArguments>();
   command->add_option("results", a->results, "Results folder of 'fracbench run'")->required();
   command->add_option("--out", a->out, "Folder of the report [<results>/report]");
+  command
+      ->add_option("--items", a->items,
+                   "Only these sections, such as claims,fragment_counts (comma-separated); each "
+                   "section of the page says its name")
+      ->delimiter(',');
   command->add_flag("--meshes", a->meshes,
                     "Also the whole meshes of every cell, with their motion, as glTF");
   command->callback(

@@ -39,6 +39,7 @@ RunResult run_shown(const Plan& plan, const Catalog& catalog, const RunArguments
                     const std::stop_token& stop) {
   TerminalProgress shown(std::cerr, is_terminal(STDERR_FILENO), terminal_columns(STDERR_FILENO));
   RunOptions options{.folder = arguments.out,
+                     .command = command_of(arguments),
                      .jobs = arguments.jobs,
                      .stop = stop,
                      .progress = [&](const RunProgress& progress) { shown.update(progress); },

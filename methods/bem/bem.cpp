@@ -21,10 +21,23 @@ MethodInfo BemMethod::info() const {
   MethodInfo info;
   info.name = "bem";
   info.summary = "cracks run through an elastic body by boundary elements, the reference";
-  info.citation =
-      "Hahn, Wojtan, \"High-resolution brittle fracture simulation with boundary elements\", ACM "
-      "TOG 34(4), 2015; \"Fast approximations for boundary element based brittle fracture "
-      "simulation\", ACM TOG 35(4), 2016";
+  info.publications = {
+      {.key = "hahn2015",
+       .authors = "David Hahn and Chris Wojtan",
+       .title = "High-resolution brittle fracture simulation with boundary elements",
+       .journal = "ACM Transactions on Graphics",
+       .volume = "34",
+       .number = "4",
+       .year = 2015,
+       .doi = "10.1145/2766896"},
+      {.key = "hahn2016",
+       .authors = "David Hahn and Chris Wojtan",
+       .title = "Fast approximations for boundary element based brittle fracture simulation",
+       .journal = "ACM Transactions on Graphics",
+       .volume = "35",
+       .number = "4",
+       .year = 2016,
+       .doi = "10.1145/2897824.2925902"}};
   info.shape_type = "crack propagation";
   info.refracture = true;
   info.quick_to_prepare = true;

@@ -63,9 +63,13 @@ MethodInfo DeepFractureMethod::info() const {
   MethodInfo info;
   info.name = "deepfracture";
   info.summary = "fracture patterns predicted by a network that learned from crack propagation";
-  info.citation =
-      "Huang, Kanai, \"DeepFracture: A Generative Approach for Predicting Brittle Fractures with "
-      "Neural Discrete Representation Learning\"";
+  info.publications = {
+      {.key = "huang-deepfracture",
+       .authors = "Yuhang Huang and Takashi Kanai",
+       .title = "DeepFracture: A Generative Approach for Predicting Brittle Fractures with Neural "
+                "Discrete Representation Learning",
+       .journal = "",
+       .note = "The University of Tokyo"}};
   info.shape_type = "crack-propagation like";
   info.random = true;
   info.learns = true;

@@ -101,7 +101,6 @@ MethodInfo ExternalMethod::info() const {
   MethodInfo info;
   info.name = "external";
   info.summary = "a program of yours, called with a folder in and a folder out";
-  info.citation = "no paper: whatever the program does";
   info.shape_type = "unknown";
   info.random = true;
   info.quick_to_prepare = true;

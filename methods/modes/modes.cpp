@@ -110,9 +110,16 @@ MethodInfo ModesMethod::info() const {
   MethodInfo info;
   info.name = "modes";
   info.summary = "fracture modes: worst-case pre-fracture, projected on by impacts in milliseconds";
-  info.citation =
-      "Sellan, Luong, Mattos Da Silva, Ramakrishnan, Yang, Jacobson, \"Breaking Good: Fracture "
-      "Modes for Realtime Destruction\", ACM Transactions on Graphics 42(1), 2023";
+  info.publications = {
+      {.key = "sellan2023",
+       .authors = "Silvia Sellán and Jack Luong and Leticia Mattos Da Silva and Aravind "
+                  "Ramakrishnan and Yuchuan Yang and Alec Jacobson",
+       .title = "Breaking Good: Fracture Modes for Realtime Destruction",
+       .journal = "ACM Transactions on Graphics",
+       .volume = "42",
+       .number = "1",
+       .year = 2023,
+       .doi = "10.1145/3549540"}};
   info.shape_type = "cutting";
   info.refracture = true;
   return info;

@@ -179,7 +179,6 @@ MethodInfo NearestPatternMethod::info() const {
   MethodInfo info;
   info.name = "nearest-pattern";
   info.summary = "the fragments of the training collision with the nearest impulse, as they are";
-  info.citation = "no paper: the baseline that a prediction is worth something beyond";
   info.shape_type = "crack-propagation like";
   info.learns = true;
   info.quick_to_prepare = true;

@@ -1,6 +1,10 @@
 #include "reports/items/impulse_response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 #include "metrics/rank_correlation.h"
 #include "metrics/summary.h"
@@ -65,8 +69,33 @@ Table response_table(const std::vector<CellGroup>& groups, const ReportInput& in
   return table;
 }
 
-/// Of the collisions themselves: methods meet the same ones.
-Table impulse_table(const ReportInput& input) {
+/// The impulses of each collision with a shape in the scenes of a family: methods meet the same
+/// ones.
+struct SceneImpulses {
+  std::string shape, family;
+  std::vector<double> first = {};   ///< the strongest of each collision, N s
+  std::vector<double> second = {};  ///< the one after it; 0 where there is none
+};
+
+std::vector<SceneImpulses> impulses_by_scene(const ReportInput& input) {
+  std::vector<SceneImpulses> scenes;
+  for (const CellGroup& group : group_cells(input.cells)) {
+    if (group.label != input.cells.front().label) continue;
+    for (const std::vector<CellRef>& collision : by_collision(group.cells)) {
+      const CellSummary& cell = collision.front();
+      if (cell.impulses.empty()) continue;
+      auto scene = std::ranges::find_if(scenes, [&](const SceneImpulses& s) {
+        return s.shape == cell.shape && s.family == cell.family;
+      });
+      if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {cell.shape, cell.family});
+      scene->first.push_back(cell.impulses[0]);
+      scene->second.push_back(cell.impulses.size() > 1 ? cell.impulses[1] : 0);
+    }
+  }
+  return scenes;
+}
+
+Table impulse_table(const std::vector<SceneImpulses>& scenes) {
   Table table{
       .name = "impulses",
       .title = "Impulses",
@@ -78,31 +107,44 @@ Table impulse_table(const ReportInput& input) {
                   {"largest", "N s"},
                   {"second largest", "N s"},
                   {"collisions with two"}}};
-  struct Row {
-    std::string shape, family;
-    std::vector<double> first = {}, second = {};
-  };
-  std::vector<Row> rows;
-  for (const CellGroup& group : group_cells(input.cells)) {
-    for (const std::vector<CellRef>& collision : by_collision(group.cells)) {
-      const CellSummary& cell = collision.front();
-      const bool of_first_method = group.label == input.cells.front().label;
-      if (cell.impulses.empty() || !of_first_method) continue;
-      auto row = std::ranges::find_if(
-          rows, [&](const Row& r) { return r.shape == cell.shape && r.family == cell.family; });
-      if (row == rows.end()) row = rows.insert(rows.end(), {cell.shape, cell.family});
-      row->first.push_back(cell.impulses[0]);
-      if (cell.impulses.size() > 1) row->second.push_back(cell.impulses[1]);
-    }
-  }
-  for (const Row& row : rows) {
-    TableCell second;
-    if (!row.second.empty()) second = summarize(row.second).mean;
-    table.rows.push_back({row.shape, row.family, static_cast<std::int64_t>(row.first.size()),
-                          summarize(row.first).mean, second,
-                          static_cast<std::int64_t>(row.second.size())});
+  for (const SceneImpulses& scene : scenes) {
+    std::vector<double> second = scene.second;
+    std::erase(second, 0.0);
+    TableCell mean;
+    if (!second.empty()) mean = summarize(second).mean;
+    table.rows.push_back({scene.shape, scene.family, static_cast<std::int64_t>(scene.first.size()),
+                          summarize(scene.first).mean, mean,
+                          static_cast<std::int64_t>(second.size())});
   }
   return table;
+}
+
+/// Largest and second largest impulse of every collision (supplement, figure 9).
+std::vector<Figure> figures_of(const std::vector<SceneImpulses>& scenes) {
+  std::vector<Figure> figures;
+  for (const SceneImpulses& scene : scenes) {
+    if (scene.first.size() < 2) continue;
+    std::vector<std::size_t> order(scene.first.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t c) { return scene.first[c]; });
+    FigureSeries first{.name = "largest", .colour = 0, .mark = Mark::dots};
+    FigureSeries second{.name = "second largest", .colour = 1, .mark = Mark::dots};
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+      const auto x = static_cast<double>(rank + 1);
+      first.x.push_back(x);
+      first.y.push_back(scene.first[order[rank]]);
+      if (scene.second[order[rank]] == 0) continue;
+      second.x.push_back(x);
+      second.y.push_back(scene.second[order[rank]]);
+    }
+    figures.push_back({.name = file_name_part("impulses_" + scene.shape + "_" + scene.family),
+                       .title = fmt::format("Impulses of {} scenes: {}", scene.family, scene.shape),
+                       .x = {.label = "collision, by its largest impulse"},
+                       .y = {.label = "impulse [N s]"},
+                       .series = {std::move(first)}});
+    if (!second.x.empty()) figures.back().series.push_back(std::move(second));
+  }
+  return figures;
 }
 
 std::vector<Figure> figures_of(const std::vector<CellGroup>& groups, const ReportInput& input) {
@@ -136,8 +178,10 @@ ReportItemInfo ImpulseResponse::info() const {
 ReportSection ImpulseResponse::render(const ReportInput& input) const {
   if (input.cells.empty()) return {};
   const std::vector<CellGroup> groups = group_cells(input.cells);
+  const std::vector<SceneImpulses> scenes = impulses_by_scene(input);
   ReportSection section{.paragraphs = {}, .tables = {}, .figures = figures_of(groups, input)};
-  for (Table& table : std::vector<Table>{response_table(groups, input), impulse_table(input)}) {
+  std::ranges::move(figures_of(scenes), std::back_inserter(section.figures));
+  for (Table& table : std::vector<Table>{response_table(groups, input), impulse_table(scenes)}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
   return section;

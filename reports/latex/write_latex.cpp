@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "methods/registry.h"
 #include "reports/latex/latex.h"
@@ -44,6 +45,22 @@ std::vector<std::string> methods_used(const ReportInput& input) {
   return names;
 }
 
+/// None where the program does not know the method.
+std::vector<Publication> publications_of(const std::string& method) {
+  for (const auto& known : methods()) {
+    const MethodInfo info = known->info();
+    if (info.name == method) return info.publications;
+  }
+  return {};
+}
+
+/// "~\\cite{a,b}", or nothing.
+std::string citations(const std::string& method) {
+  std::vector<std::string> keys;
+  for (const Publication& publication : publications_of(method)) keys.push_back(publication.key);
+  return keys.empty() ? "" : fmt::format("~\\cite{{{}}}", fmt::join(keys, ","));
+}
+
 std::string methods_paragraph(const ReportInput& input) {
   const Json suite = suite_values(input);
   std::string text = fmt::format("The suite \\texttt{{{}}} of fracbench was measured",
@@ -69,32 +86,21 @@ std::string methods_paragraph(const ReportInput& input) {
   }
   for (const auto& [label, method] : method_values.items()) {
     const std::string name = method.value("name", label);
-    text += fmt::format("\\texttt{{{}}} is the method \\texttt{{{}}}~\\cite{{{}}} with {}.\n",
-                        escape_latex(label), escape_latex(name), name,
+    text += fmt::format("\\texttt{{{}}} is the method \\texttt{{{}}}{} with {}.\n",
+                        escape_latex(label), escape_latex(name), citations(name),
                         escape_latex(options_text(method.value("options", Json::object()))));
   }
   return text;
 }
 
-/// What is known of a method's paper stands in its citation, as one text.
+/// The papers of every method used, each once.
 std::string references(const ReportInput& input) {
   std::string bib;
+  std::set<std::string> keys;
   for (const std::string& name : methods_used(input)) {
-    const auto found = std::ranges::find_if(
-        methods(), [&](const auto& method) { return method->info().name == name; });
-    if (found == methods().end()) continue;
-    std::string citation = (*found)->info().citation;
-    bool open = false;
-    std::string quoted;  // quotation marks as LaTeX has them
-    for (const char c : citation) {
-      if (c == '"') {
-        quoted += open ? "''" : "``";
-        open = !open;
-      } else {
-        quoted += escape_latex(std::string_view(&c, 1));
-      }
+    for (const Publication& publication : publications_of(name)) {
+      if (keys.insert(publication.key).second) bib += to_bibtex(publication) + '\n';
     }
-    bib += fmt::format("@misc{{{},\n  note = {{{}}}\n}}\n\n", name, quoted);
   }
   return bib;
 }

@@ -70,7 +70,7 @@ std::string figure_html(const Figure& figure) {
                             escape_markup(figure.name));
 }
 
-std::string section_html(const NamedSection& named) {
+std::string section_html(const NamedSection& named, const PageOptions& options) {
   std::string html = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", named.item.name,
                                  escape_markup(named.item.title));
   for (const std::string& paragraph : named.section.paragraphs) {
@@ -82,6 +82,11 @@ std::string section_html(const NamedSection& named) {
     html += "</div>\n";
   }
   for (const Table& table : named.section.tables) html += table_html(table);
+  if (!options.commands.empty()) {
+    html += fmt::format("<details><summary>Make this section again</summary><pre>{}</pre></details>\n",
+                        escape_markup(fmt::format("{}\n{} --items {}", options.commands.front(),
+                                                  options.commands.back(), named.item.name)));
+  }
   return html + "</section>\n";
 }
 
@@ -246,7 +251,7 @@ std::string html_page(const ReportInput& input, const std::vector<NamedSection>&
       "<p class=\"note\">Intervals in brackets hold {:g} % and come from {} resamples of whole "
       "collisions.</p>\n",
       100 * input.bootstrap.confidence, input.bootstrap.resamples);
-  for (const NamedSection& named : sections) html += section_html(named);
+  for (const NamedSection& named : sections) html += section_html(named, options);
   html += cells_html(input, options) + provenance_html(input, options) + "</main>\n";
   if (options.script) html += "<script src=\"page.js\"></script>\n";
   return html + "</body>\n</html>\n";

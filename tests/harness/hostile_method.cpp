@@ -201,7 +201,7 @@ class Hostile : public Method {
   MethodInfo info() const override {
     return {.name = "hostile",
             .summary = "does what no method should",
-            .citation = "",
+            .publications = {},
             .shape_type = "planar",
             .random = true,
             .quick_to_prepare = true,

@@ -83,7 +83,7 @@ class Halves : public Method {
   MethodInfo info() const override {
     return {.name = "halves",
             .summary = "cuts a box in two",
-            .citation = "",
+            .publications = {},
             .shape_type = "planar",
             .random = true,
             .quick_to_prepare = true,

@@ -33,7 +33,11 @@ TEST(MethodRegistry, GivesEveryMethodADigestOfItsSourcesAndCompleteFacts) {
     EXPECT_EQ(info.source_digest.size(), 64u);
     EXPECT_TRUE(digests.insert(info.source_digest).second);
     EXPECT_FALSE(info.summary.empty());
-    EXPECT_FALSE(info.citation.empty());
+    for (const Publication& publication : info.publications) {
+      EXPECT_FALSE(publication.key.empty());
+      EXPECT_FALSE(publication.authors.empty());
+      EXPECT_FALSE(publication.title.empty());
+    }
     EXPECT_FALSE(info.shape_type.empty());
     EXPECT_GT(info.volume_tolerance, 0);
   }
