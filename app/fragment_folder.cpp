@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "geometry/components.h"
-#include "geometry/read_mesh.h"
 #include "geometry/write_mesh.h"
 
 namespace fracbench {
@@ -51,13 +48,6 @@ fs::path without_trailing_slash(const fs::path& folder) {
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-bool is_mesh_file(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".off";
-}
-
 }  // namespace
 
 void require_usable_folder(const fs::path& folder) {
@@ -89,27 +79,6 @@ void write_fragment_folder(const fs::path& folder, const Fragments& fragments,
 } catch (const fs::filesystem_error& error) {
   throw InputError(
       fmt::format("--out {}: cannot be written: {}", folder.string(), error.code().message()));
-}
-
-std::vector<TriangleMesh> read_fragment_meshes(const fs::path& path) {
-  std::vector<TriangleMesh> meshes;
-  if (fs::is_directory(path)) {
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-      if (entry.is_regular_file() && is_mesh_file(entry.path())) files.push_back(entry.path());
-    }
-    std::ranges::sort(files);
-    for (const fs::path& file : files) meshes.push_back(read_mesh(file));
-    if (meshes.empty()) {
-      throw InputError(
-          fmt::format("{}: no OBJ, PLY, STL or OFF file in this folder; name the "
-                      "folder that holds one mesh for each fragment",
-                      path.string()));
-    }
-    return meshes;
-  }
-  for (MeshPart& part : solid_components(read_mesh(path))) meshes.push_back(std::move(part.mesh));
-  return meshes;
 }
 
 }  // namespace fracbench

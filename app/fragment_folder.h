@@ -25,8 +25,4 @@ void write_fragment_folder(const std::filesystem::path& folder, const Fragments&
 /// Throws InputError where write_fragment_folder would refuse the folder; for use before long work.
 void require_usable_folder(const std::filesystem::path& folder);
 
-/// The meshes of a folder (OBJ, PLY, STL, OFF; in the order of their names), or the connected
-/// solids of one mesh file. Throws InputError where there are none.
-std::vector<TriangleMesh> read_fragment_meshes(const std::filesystem::path& path);
-
 }  // namespace fracbench

@@ -13,6 +13,7 @@
 #include "methods/external/external.h"
 #include "methods/modes/modes.h"
 #include "methods/nearest-pattern/nearest_pattern.h"
+#include "methods/plugin/plugin.h"
 
 namespace fracbench {
 
@@ -76,7 +77,7 @@ std::vector<std::unique_ptr<Method>> registered() {
 const std::vector<std::unique_ptr<Method>>& methods() {
   static const std::vector<std::unique_ptr<Method>> list = registered<  //
       CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod,
-      ExternalMethod  //
+      ExternalMethod, PluginMethod  //
       >();
   return list;
 }

@@ -13,6 +13,7 @@
 #include "core/peak_memory.h"
 #include "core/stage_timer.h"
 #include "geometry/measures.h"
+#include "geometry/read_fragments.h"
 #include "geometry/tag_surfaces.h"
 #include "scenarios/shapes.h"
 

@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/material_json.h"
 #include "geometry/pieces_of_fragments.h"
-#include "geometry/read_mesh.h"
+#include "geometry/read_fragments.h"
 #include "geometry/tag_surfaces.h"
 #include "geometry/write_mesh.h"
 
@@ -38,11 +36,6 @@ Json impulses_json(const Impact& impact) {
   return list;
 }
 
-bool is_mesh_file(const fs::path& file) {
-  constexpr std::array kEndings{".obj", ".ply", ".stl", ".off"};
-  return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
-}
-
 }  // namespace
 
 void write_request(const fs::path& folder, const Target& target, const Impact& impact,
@@ -63,22 +56,15 @@ void write_request(const fs::path& folder, const Target& target, const Impact& i
 }
 
 std::vector<Piece> read_pieces(const fs::path& folder, const TriangleMesh& body, int threads) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (is_mesh_file(entry.path())) files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  if (files.empty()) {
+  if (mesh_files(folder).empty()) {
     throw MethodFailure(
         "external: the program left no mesh in its folder; a body that stays whole is one mesh");
   }
   std::vector<TriangleMesh> meshes;
-  for (const fs::path& file : files) {
-    try {
-      meshes.push_back(read_mesh(file));
-    } catch (const InputError& error) {
-      throw MethodFailure(fmt::format("external: {}", error.what()));
-    }
+  try {
+    meshes = read_fragment_meshes(folder);
+  } catch (const InputError& error) {
+    throw MethodFailure(fmt::format("external: {}", error.what()));
   }
   return pieces_of_fragments(tag_fragments(body, std::move(meshes), {.threads = threads}));
 }

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "geometry/measures.h"
+#include "geometry/read_fragments.h"
 #include "geometry/read_mesh.h"
 
 namespace fracbench {
@@ -28,13 +29,6 @@ constexpr std::array<PaperShape, 4> shapes{{
     {"bunny-paper", "the paper's Bunny", 240197, 441708, {0.222496, 0.99828, 0.81324}},
     {"pot-paper", "the paper's Pot", 12120, 0, {}},
 }};
-
-bool is_mesh_file(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".obj" || extension == ".stl" || extension == ".ply" || extension == ".off";
-}
 
 bool is_named_after(const std::filesystem::path& file, const PaperShape& shape) {
   const std::string stem = file.stem().string();
@@ -79,12 +73,7 @@ std::filesystem::path shapes_folder() {
 std::optional<std::filesystem::path> find_paper_shape(const PaperShape& shape,
                                                       const std::filesystem::path& folder) {
   if (shape.file == 0 || folder.empty()) return {};
-  std::error_code error;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.is_regular_file(error) && is_mesh_file(entry.path())) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+  std::vector<std::filesystem::path> files = mesh_files(folder);
   const auto unnamed = std::stable_partition(
       files.begin(), files.end(), [&](const auto& file) { return is_named_after(file, shape); });
   const auto count = static_cast<std::size_t>(files.end() - unnamed);
