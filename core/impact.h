@@ -18,6 +18,13 @@ struct Impulse {
   double face_area = 0;    ///< m^2
 };
 
+/// An impulse that is known without a collision.
+struct GivenImpulse {
+  Vec3 point = Vec3::Zero();      ///< on the surface of the body, or near it, m
+  Vec3 direction = Vec3::Zero();  ///< the way the body is pushed
+  double magnitude = 0;           ///< N s
+};
+
 /// Motion of a rigid body. Velocity is that of the centre of mass.
 struct BodyState {
   Pose pose;                             ///< of the mesh frame

@@ -11,6 +11,7 @@
 #include "methods/cvd/cvd.h"
 #include "methods/deepfracture/deepfracture.h"
 #include "methods/external/external.h"
+#include "methods/import/import.h"
 #include "methods/modes/modes.h"
 #include "methods/nearest-pattern/nearest_pattern.h"
 #include "methods/plugin/plugin.h"
@@ -77,7 +78,7 @@ std::vector<std::unique_ptr<Method>> registered() {
 const std::vector<std::unique_ptr<Method>>& methods() {
   static const std::vector<std::unique_ptr<Method>> list = registered<  //
       CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod,
-      ExternalMethod, PluginMethod  //
+      ExternalMethod, PluginMethod, ImportMethod  //
       >();
   return list;
 }

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "scenarios/families/dual.h"
 #include "scenarios/families/file.h"
+#include "scenarios/families/imported.h"
 #include "scenarios/families/near_shear.h"
 #include "scenarios/families/published.h"
 #include "scenarios/families/single.h"
@@ -29,6 +30,7 @@ std::vector<std::unique_ptr<ScenarioFamily>> make_families() {
   families.push_back(std::make_unique<SweepHitPointFamily>());
   families.push_back(std::make_unique<PublishedFamily>());
   families.push_back(std::make_unique<FileFamily>());
+  families.push_back(std::make_unique<ImportedFamily>());
   return families;
 }
 

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <span>
+
 #include "core/impact.h"
 #include "core/target.h"
 #include "scenarios/scenario.h"
 
 namespace fracbench {
+
+/// An impact of several impulses that are given directly instead of by a collision, each as for
+/// impact_at. Throws InputError also where there is none.
+Impact impact_of(const Target& target, std::span<const GivenImpulse> impulses,
+                 BreakTest test = BreakTest::authors);
 
 /// An impact that is given directly instead of by a collision: an impulse of `magnitude` (N s)
 /// along `direction` at `point`, which is moved to the nearest point of the target's surface. The

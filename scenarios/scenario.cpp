@@ -48,6 +48,11 @@ nlohmann::ordered_json to_json(const Scenario& scenario) {
     item["material"] = to_json(ball.material);
     json["balls"].push_back(item);
   }
+  for (const GivenImpulse& impulse : scenario.impulses) {
+    json["impulses"].push_back({{"point", to_json(impulse.point)},
+                                {"direction", to_json(impulse.direction)},
+                                {"magnitude", impulse.magnitude}});
+  }
   json["material"] = to_json(scenario.material);
   json["break_test"] = name_of(scenario.break_test);
   json["time_step"] = scenario.time_step;
@@ -71,6 +76,13 @@ Scenario scenario_from_json(const nlohmann::ordered_json& json) {
                               .velocity = vec3_from_json(item.at("velocity")),
                               .radius = item.at("radius").get<double>(),
                               .material = material_from_json(item.at("material"))});
+  }
+  if (json.contains("impulses")) {
+    for (const auto& item : json.at("impulses")) {
+      scenario.impulses.push_back({.point = vec3_from_json(item.at("point")),
+                                   .direction = vec3_from_json(item.at("direction")),
+                                   .magnitude = item.at("magnitude").get<double>()});
+    }
   }
   return scenario;
 }

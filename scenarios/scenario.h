@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/impact.h"
 #include "core/material.h"
 #include "core/vec3.h"
 
@@ -22,11 +23,13 @@ struct Ball {
   Material material = {.density = 8900};
 };
 
-/// One rigid-body scene: the target rests at the origin in zero gravity, balls fly at it.
+/// One rigid-body scene: the target rests at the origin in zero gravity, balls fly at it. Or, where
+/// impulses are given, these break it at the start, whatever the break test says.
 struct Scenario {
   std::string name;    ///< unique within its family: part of the cell's seed and of the record
   std::string family;  ///< "single", "dual", ...
   std::vector<Ball> balls;
+  std::vector<GivenImpulse> impulses = {};
   Material material;  ///< of the target
   BreakTest break_test = BreakTest::authors;
   double time_step = 1.0 / 250;  ///< of the rigid-body scene, s

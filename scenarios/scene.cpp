@@ -10,6 +10,7 @@
 #include "geometry/measures.h"
 #include "scenarios/break_test.h"
 #include "scenarios/first_impact.h"
+#include "scenarios/given_impact.h"
 #include "scenarios/scene_bodies.h"
 
 namespace fracbench {
@@ -52,6 +53,21 @@ class SceneRun {
         result.impacts.push_back(std::move(body.impact));
       }
     }
+  }
+
+  /// By the impulses that are given; before the first step.
+  void break_by_given_impulses(const Target& target) {
+    const auto& [body, solid] = *bodies_.solids().begin();
+    Impact impact = impact_of(target, scenario_.impulses, scenario_.break_test);
+    std::vector<Piece> pieces;
+    if (solid.breakable != nullptr) pieces = solid.breakable->fracture(impact, context_);
+    if (pieces.size() < 2) {
+      result.unbroken = std::move(impact);
+      return;
+    }
+    const auto stage = context_.timer.stage("rigid_body");
+    result.replacements.push_back(bodies_.replace(body, std::move(pieces), 0));
+    result.impacts.push_back(std::move(impact));
   }
 
   SceneResult result;
@@ -108,6 +124,10 @@ std::optional<FirstImpact> first_impact(const Scenario& scenario, const Target& 
                                         const std::shared_ptr<const SurfaceTree>& surface,
                                         Context& context) {
   const auto stage = context.timer.stage("rigid_body");
+  if (!scenario.impulses.empty()) {
+    return FirstImpact{.impact = impact_of(target, scenario.impulses, scenario.break_test),
+                       .breaks = true};
+  }
   SceneBodies bodies(scenario, target, surface, nullptr);
   const int target_body = bodies.solids().begin()->first;
   std::optional<Impact> strongest;
@@ -139,6 +159,7 @@ SceneResult run_scene(const Scenario& scenario, const Target& target,
     bodies->record(0);
   }
   SceneRun run(scenario, *bodies, context);
+  if (!scenario.impulses.empty()) run.break_by_given_impulses(target);
   for (int frame = 1; frame <= scenario.frames; ++frame) {
     context.stop_if_asked();
     run.step(frame);

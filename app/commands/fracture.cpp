@@ -164,8 +164,9 @@ ExitCode fracture(const FractureArguments& arguments, std::stop_token stop) {
         fmt::format("give one of --ball {}, --impact {} and --scenario FILE (a scene in TOML)",
                     kBallForm, kImpactForm));
   }
-  if (!std::isfinite(arguments.longest_side)) {
-    throw InputError("--longest-side: must be a finite length in m");
+  const double side = arguments.longest_side;
+  if (!std::isfinite(side) || (side > 0 && side < 1e-3)) {
+    throw InputError("--longest-side: must be 0 or a length from 0.001 m to 1000 m");
   }
   const Method& method = find_method(arguments.method);
   const Options options = parse_settings(method.options(), arguments.settings,
@@ -274,8 +275,10 @@ void add_fracture_command(CLI::App& app, Action& chosen) {
                    "Write fragments in place and scale of the mesh's file, or normalised")
       ->check(CLI::IsMember({"mesh", "normalized"}))
       ->capture_default_str();
-  command->add_option("--longest-side", a->longest_side, "Size in the normalised frame, m")
-      ->check(CLI::Range(1e-3, 1e3))
+  command
+      ->add_option("--longest-side", a->longest_side,
+                   "Size in the normalised frame, m; 0: the mesh's own place and scale")
+      ->check(CLI::Range(0., 1e3))
       ->capture_default_str();
   command->add_option("--seed", a->seed, "Of the method's random choices")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
