@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "harness/provenance.h"
 #include "harness/summaries.h"
+#include "harness/summary_file.h"
 
 namespace fracbench {
 
@@ -106,30 +107,32 @@ void require_complete(const fs::path& folder) {
 
 std::string notes_text(const std::vector<Acceptance>& notes) {
   Json list = Json::array();
-  for (const Acceptance& note : notes) {
-    list.push_back({{"when", note.when},
-                    {"who", note.who},
-                    {"why", note.why},
-                    {"suite", note.suite},
-                    {"cells", note.cells}});
-  }
+  for (const Acceptance& note : notes) list.push_back(to_json(note));
   return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Acceptance accept_summary(const fs::path& baseline, const fs::path& candidate, Acceptance note) {
+  std::vector<Acceptance> notes = read_acceptances(baseline);
+  const Results results = read_results(candidate);
+  note.when = utc_now();
+  note.suite = results.suite.name;
+  note.cells = results.cells.size();
+  notes.push_back(note);
+  write_summary_file(baseline, results, notes);
+  return note;
 }
 
 }  // namespace
 
 std::vector<Acceptance> read_acceptances(const fs::path& folder) {
+  if (names_summary_file(folder)) {
+    return fs::exists(folder) ? read_summary_file(folder).accepted : std::vector<Acceptance>();
+  }
   std::vector<Acceptance> notes;
   std::ifstream stream(folder / kNotes);
   if (!stream) return notes;
   try {
-    for (const Json& note : Json::parse(stream)) {
-      notes.push_back({.when = note.at("when"),
-                       .who = note.at("who"),
-                       .why = note.at("why"),
-                       .suite = note.at("suite"),
-                       .cells = note.at("cells")});
-    }
+    for (const Json& note : Json::parse(stream)) notes.push_back(acceptance_from_json(note));
   } catch (const nlohmann::json::exception&) {
     throw InputError(fmt::format("{}: is damaged; restore it, or remove it to start a new history",
                                  (folder / kNotes).string()));
@@ -144,6 +147,7 @@ Acceptance accept_baseline(const fs::path& baseline, const fs::path& candidate, 
         "not know: --who TEXT)");
   }
   require_complete(candidate);
+  if (names_summary_file(baseline)) return accept_summary(baseline, candidate, std::move(note));
   if (fs::exists(baseline)) {
     if (fs::equivalent(baseline, candidate)) fail(candidate, "is the baseline itself");
     if (fs::is_symlink(baseline) || !fs::is_directory(baseline) ||

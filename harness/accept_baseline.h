@@ -1,22 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
+
+#include "harness/acceptance.h"
 
 namespace fracbench {
 
-/// Why a results folder became the baseline; the last one of `accepted.json` in its folder.
-struct Acceptance {
-  std::string when;  ///< UTC, as 2026-01-31T12:00:00Z
-  std::string who;
-  std::string why;
-  std::string suite;
-  std::size_t cells = 0;
-  bool operator==(const Acceptance&) const = default;
-};
-
-/// Makes a copy of the candidate the baseline, in one step: a copy is made beside the baseline and
+/// Makes the candidate the baseline. Where the baseline's path ends in .json, its summary is written
+/// there (summary_file.h). Else a copy of the folder becomes the baseline, in one step: a copy is made beside the baseline and
 /// synced, and takes its place by one renaming, so that there is always a whole baseline, the old
 /// one or the new. The notes of earlier acceptances are kept. `note` names who and why; the rest is
 /// filled in. Returns the note as written.
@@ -26,7 +18,8 @@ struct Acceptance {
 Acceptance accept_baseline(const std::filesystem::path& baseline,
                            const std::filesystem::path& candidate, Acceptance note);
 
-/// Oldest first; empty where nothing was accepted. Throws InputError where the file is damaged.
-std::vector<Acceptance> read_acceptances(const std::filesystem::path& folder);
+/// Of a folder or a summary file, oldest first; empty where nothing was accepted. Throws InputError
+/// where they are damaged.
+std::vector<Acceptance> read_acceptances(const std::filesystem::path& baseline);
 
 }  // namespace fracbench

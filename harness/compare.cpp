@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "harness/judge_gate.h"
+#include "harness/summary_file.h"
 
 namespace fracbench {
 
@@ -50,9 +51,11 @@ std::vector<std::pair<Gate, std::string>> expand(const std::vector<Gate>& gates,
   for (const Gate& gate : gates) {
     if (!gate.built_in) require_known(gate.metric, metrics, "metric");
     require_known(gate.method, labels, "method");
+    require_known(gate.relative_to, labels, "method");
     require_known(gate.shape, {shapes.begin(), shapes.end()}, "shape");
     for (const std::string& label : labels) {
       if (!gate.method.empty() && gate.method != label) continue;
+      if (gate.relative_to == label) continue;
       if (gate.metric != kEveryStage) {
         expanded.emplace_back(gate, label);
         continue;
@@ -180,14 +183,16 @@ Comparison compare_results(const Results& baseline, const Results& candidate,
 
 Comparison compare_folders(const std::filesystem::path& baseline,
                            const std::filesystem::path& candidate, const std::vector<Gate>& gates) {
-  if (!std::filesystem::exists(baseline / "suite.json")) {
+  const bool summary = names_summary_file(baseline);
+  if (!std::filesystem::exists(summary ? baseline : baseline / "suite.json")) {
     return not_comparable(
         "no-baseline",
-        {fmt::format("{}: there is no baseline (no suite.json); make the candidate the first one "
+        {fmt::format("{}: there is no baseline; make the candidate the first one "
                      "with fracbench compare {} {} --accept --why TEXT",
                      baseline.string(), baseline.string(), candidate.string())});
   }
-  return compare_results(read_results(baseline), read_results(candidate), gates);
+  return compare_results(summary ? read_summary_file(baseline).results : read_results(baseline),
+                         read_results(candidate), gates);
 }
 
 }  // namespace fracbench

@@ -25,6 +25,8 @@ const OptionsSchema& gate_schema() {
        .summary = "what is compared",
        .choices = {"mean", "ks", "wasserstein", "paired-ratio"}},
       {"method", "", "", "label in the suite; all methods, each by itself, where not given"},
+      {"relative_to", "", "",
+       "label of a method whose time for the same collision the times are divided by"},
       {"shape", "", "", "label in the suite; all shapes together where not given"},
       {.name = "direction",
        .fallback = "both",
@@ -115,6 +117,7 @@ Gate read_gate(const toml::table& table, const std::filesystem::path& source) {
   Gate gate{.metric = options.text("metric"),
             .test = parse_test(options.text("test")),
             .method = options.text("method"),
+            .relative_to = options.text("relative_to"),
             .shape = options.text("shape"),
             .significance = options.number("significance"),
             .raise_to_noise = options.flag("raise_to_noise")};
@@ -129,6 +132,10 @@ Gate read_gate(const toml::table& table, const std::filesystem::path& source) {
         fmt::format("{}: the test 'paired-ratio' is for times and memory, and these "
                     "have no other; '{}' has the test '{}'",
                     where, gate.metric, to_string(gate.test)));
+  }
+  if (!gate.relative_to.empty() && !gate.of_machine()) {
+    throw InputError(
+        fmt::format("{}: 'relative_to' is for times and memory, not for '{}'", where, gate.metric));
   }
   read_limit(gate, options, where);
   return gate;

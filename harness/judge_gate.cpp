@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/random.h"
 #include "metrics/cluster_bootstrap.h"
@@ -95,7 +96,8 @@ class Measuring {
 
   void mean(const std::vector<CellPair>& pairs);
   void distance(const std::vector<CellPair>& pairs);
-  void ratio(const std::vector<CellPair>& pairs);
+  /// `others` are parallel to `pairs`, or none: the cells that times are relative to.
+  void ratio(const std::vector<CellPair>& pairs, const std::vector<CellPair>& others);
 
  private:
   Gate& gate() { return result_.gate; }
@@ -238,13 +240,19 @@ void Measuring::distance(const std::vector<CellPair>& pairs) {
   result_.p = distance_test(distance, options_, random_).p;
 }
 
-void Measuring::ratio(const std::vector<CellPair>& pairs) {
+void Measuring::ratio(const std::vector<CellPair>& pairs, const std::vector<CellPair>& others) {
   const double shortest = gate().metric == "peak_memory" ? 0 : kShortestTime;
   std::vector<double> logs;
-  for (const CellPair& pair : pairs) {
+  const auto log_ratio = [&](const CellPair& pair) -> std::optional<double> {
     const auto b = value_of(*pair.baseline, gate().metric);
     const auto c = value_of(*pair.candidate, gate().metric);
-    if (b && c && *b > shortest && *c > shortest) logs.push_back(std::log(*c / *b));
+    if (!b || !c || *b <= shortest || *c <= shortest) return std::nullopt;
+    return std::log(*c / *b);
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto own = log_ratio(pairs[i]);
+    const auto other = others.empty() ? std::optional(0.0) : log_ratio(others[i]);
+    if (own && other) logs.push_back(*own - *other);
   }
   const bool identical = std::ranges::all_of(logs, [](double log) { return log == 0; });
   const bool judged = enough(logs.size(), identical);
@@ -263,7 +271,7 @@ void Measuring::ratio(const std::vector<CellPair>& pairs) {
     result_.change_low = std::exp(interval->low);
     result_.change_high = std::exp(interval->high);
   }
-  if (!comparable_machines(pairs)) {
+  if (others.empty() && !comparable_machines(pairs)) {
     return end(GateOutcome::reported,
                "not judged: not all were measured on the same processor with the same threads");
   }
@@ -283,6 +291,27 @@ bool exceeds(const GateResult& result) {
   const double low = gate.relative ? 1 / gate.limit : -gate.limit;
   return (gate.direction != Tail::lower && change > gate.limit) ||
          (gate.direction != Tail::upper && change < low);
+}
+
+/// Leaves only those of `used` for which `label` broke the same collision, too; returns its cells.
+std::vector<CellPair> keep_those_of(const std::string& label, const std::vector<CellPair>& pairs,
+                                    std::vector<CellPair>& used) {
+  using Place = std::tuple<std::string, std::string, std::string, int>;
+  const auto place = [](const CellSummary& c) {
+    return Place(c.shape, c.family, c.scenario, c.repeat);
+  };
+  std::map<Place, CellPair> of_label;
+  for (const CellPair& pair : pairs) {
+    if (pair.baseline->label == label && pair.baseline->status == CellStatus::ok &&
+        pair.candidate->status == CellStatus::ok) {
+      of_label.emplace(place(*pair.baseline), pair);
+    }
+  }
+  std::erase_if(used,
+                [&](const CellPair& pair) { return !of_label.contains(place(*pair.baseline)); });
+  std::vector<CellPair> others;
+  for (const CellPair& pair : used) others.push_back(of_label.at(place(*pair.baseline)));
+  return others;
 }
 
 }  // namespace
@@ -309,7 +338,9 @@ GateResult measure_gate(const Gate& gate, const std::string& method,
   if (gate.test == GateTest::mean) {
     measuring.mean(used);
   } else if (gate.test == GateTest::paired_ratio) {
-    measuring.ratio(used);
+    std::vector<CellPair> others;
+    if (!gate.relative_to.empty()) others = keep_those_of(gate.relative_to, pairs, used);
+    measuring.ratio(used, others);
   } else {
     measuring.distance(used);
   }

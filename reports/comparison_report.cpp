@@ -21,8 +21,10 @@ Json number(const std::optional<double>& value) {
 std::string shown(const std::optional<double>& value) { return value ? short_number(*value) : "-"; }
 
 std::string gate_name(const GateResult& result) {
-  std::string name =
-      fmt::format("{}/{} ({})", result.method, result.gate.metric, to_string(result.gate.test));
+  const std::string& other = result.gate.relative_to;
+  std::string name = fmt::format("{}{}/{} ({})", result.method,
+                                 other.empty() ? "" : fmt::format(" over {}", other),
+                                 result.gate.metric, to_string(result.gate.test));
   if (!result.gate.shape.empty()) name = result.gate.shape + "/" + name;
   return name;
 }

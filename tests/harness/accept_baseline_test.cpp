@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "core/error.h"
 #include "harness/compare.h"
@@ -59,6 +60,49 @@ TEST_F(AcceptBaseline, MakesTheFirstBaselineAndThenReplacesItKeepingAllNotes) {
   EXPECT_FALSE(fs::exists(baseline_ / "records" / "old.h5"));
   EXPECT_EQ(list_records(baseline_).size(), 12u);
   EXPECT_EQ(entries(), 2u);  // nothing is left beside
+}
+
+TEST_F(AcceptBaseline, ASummaryFileComparesLikeTheFolderItStandsFor) {
+  const fs::path folder = baseline_;
+  accept("the folder");
+  baseline_ += ".json";
+  const Acceptance first = accept("the summary");
+  const Acceptance second = accept("again");
+  EXPECT_EQ(read_acceptances(baseline_), (std::vector<Acceptance>{first, second}));
+  const Comparison whole = compare_folders(folder, candidate_, default_gates());
+  const Comparison summary = compare_folders(baseline_, candidate_, default_gates());
+  EXPECT_EQ(summary.verdict, "good");
+  EXPECT_EQ(summary.compared, 12u);
+  ASSERT_EQ(summary.gates.size(), whole.gates.size());
+  for (std::size_t g = 0; g < whole.gates.size(); ++g) {
+    EXPECT_EQ(summary.gates[g].baseline, whole.gates[g].baseline);
+    EXPECT_EQ(summary.gates[g].noise, whole.gates[g].noise);
+  }
+}
+
+TEST_F(AcceptBaseline, ASummaryFileThatWasTamperedWithIsRefused) {
+  baseline_ += ".json";
+  accept("why");
+  std::stringstream text;
+  text << std::ifstream(baseline_).rdbuf();
+  const std::string good = text.str();
+  const auto error_with = [&](const std::string& bytes) -> std::string {
+    std::ofstream(baseline_) << bytes;
+    try {
+      compare_folders(baseline_, candidate_, default_gates());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::string other = good;
+  other[other.rfind("\"breaks\":") + 9] = '7';
+  EXPECT_THAT(error_with(other), HasSubstr("is damaged"));
+  EXPECT_THAT(error_with(good.substr(0, good.size() / 2)), HasSubstr("is no summary"));
+  other = good;
+  other[other.find("\"version\": 1") + 11] = '2';
+  EXPECT_THAT(error_with(other), HasSubstr("version 2"));
+  EXPECT_EQ(error_with(good), "");
 }
 
 TEST_F(AcceptBaseline, ABaselineIsAResultsFolderThatCanBeMeasuredFurther) {

@@ -1,5 +1,6 @@
 #include "harness/compare.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -193,6 +194,36 @@ TEST(Compare, TimesOfOtherMachinesAreReportedAndNotJudged) {
   Results threads = MadeUpResults{.time_shift = 9}.make();
   for (CellSummary& cell : threads.cells) cell.threads = 8;
   EXPECT_EQ(compare_results(baseline, threads, default_gates()).verdict, "good");
+}
+
+TEST(Compare, TimesRelativeToAnotherMethodAreJudgedOnAnyMachine) {
+  // Two methods; `machine` is the time that a machine takes for the same work.
+  const auto both = [](double own_shift, double machine, std::uint64_t rerun) {
+    const std::string cpu = fmt::format("of speed {}", 1 / machine);
+    Results results =
+        MadeUpResults{.time_shift = own_shift * machine, .rerun = rerun, .cpu = cpu}.make();
+    const Results other =
+        MadeUpResults{.time_shift = machine, .rerun = rerun + 50, .cpu = cpu}.make();
+    for (CellSummary cell : other.cells) {
+      cell.label = "other";
+      results.cells.push_back(cell);
+    }
+    return results;
+  };
+  const Gate gate{.metric = "total_seconds",
+                  .test = GateTest::paired_ratio,
+                  .relative_to = "other",
+                  .direction = Tail::upper,
+                  .limit = 1.3,
+                  .relative = true};
+  const Results baseline = both(1, 1, 1);
+  const Comparison same = compare_results(baseline, both(1, 2, 2), {gate});
+  ASSERT_EQ(same.gates.size(), 1u) << "not beside itself";
+  EXPECT_EQ(same.gates[0].outcome, GateOutcome::pass) << same.gates[0].reason;
+  EXPECT_NEAR(same.gates[0].change.value(), 1, 0.1);
+  const Comparison slower = compare_results(baseline, both(1.6, 0.5, 3), {gate});
+  EXPECT_EQ(slower.gates.at(0).outcome, GateOutcome::regression) << slower.gates[0].reason;
+  EXPECT_NEAR(slower.gates[0].change.value(), 1.6, 0.1);
 }
 
 TEST(Compare, GatesOnWhatTheBaselineDoesNotHaveAreMistakes) {

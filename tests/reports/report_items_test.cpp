@@ -248,8 +248,12 @@ TEST(ImpulseItem, tells_whether_stronger_impulses_make_more_and_smaller_fragment
   const Table impulses = table(shown, "impulses");
   EXPECT_EQ(number(at(impulses, 0, "largest")), 450);
   EXPECT_EQ(number(at(impulses, 0, "second largest")), 10);
-  ASSERT_EQ(shown.figures.size(), 1u);
+  ASSERT_EQ(shown.figures.size(), 2u);
   EXPECT_EQ(shown.figures[0].series[0].x.size(), 8u);
+  const Figure& strengths = shown.figures[1];  // by the largest impulse
+  EXPECT_EQ(strengths.series.at(0).y.front(), 100);
+  EXPECT_EQ(strengths.series.at(0).y.back(), 800);
+  EXPECT_EQ(strengths.series.at(1).y, std::vector<double>(8, 10.0));
 }
 
 TEST(ResolutionItem, is_there_where_two_resolutions_are) {
