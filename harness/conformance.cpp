@@ -1,11 +1,19 @@
 #include "harness/conformance.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
+#include <set>
 #include <thread>
 
 #include "core/digest.h"
@@ -21,6 +29,8 @@
 namespace fracbench {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::uint64_t kSeed = 1;
 constexpr double kStopSeconds = 1;  // within which work has to end when it is asked to
@@ -277,6 +287,119 @@ CheckResult check_cancel(const Bench& bench) {
   return preparing && breaking ? passed(text) : failed(text);
 }
 
+/// Bytes that are allocated now.
+double bytes_in_use() {
+  const struct mallinfo2 info = ::mallinfo2();
+  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+/// Peak of this process and of the largest one that it has waited for, MiB.
+double peak_mb() {
+  double peak = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    ::getrusage(who, &usage);
+    peak = std::max(peak, static_cast<double>(usage.ru_maxrss) / 1024);
+  }
+  return peak;
+}
+
+CheckResult check_memory(const Bench& bench) {
+  constexpr int kFirst = 3, kBlows = 8;     // the first ones fill what is kept on purpose
+  constexpr double kLeak = 64 * 1024;       // bytes a blow
+  const auto body = bench.prepare();
+  double before = 0;
+  for (int n = 0; n < kBlows; ++n) {
+    if (n == kFirst) before = bytes_in_use();
+    bench.blow(*body, bench.impact(0));
+  }
+  const double growth = (bytes_in_use() - before) / (kBlows - kFirst);
+  const double peak = peak_mb();
+  const std::string text = fmt::format("{:.0f} MiB at most", peak);
+  if (peak > bench.subject().memory_mb) {
+    return failed(fmt::format("{}, allowed {:g}", text, bench.subject().memory_mb));
+  }
+  if (growth > kLeak) {
+    return failed(fmt::format("each blow leaves {:.0f} KiB behind", growth / 1024));
+  }
+  return passed(text);
+}
+
+/// What is in a folder: times of change by path.
+using Listing = std::map<fs::path, fs::file_time_type>;
+
+Listing listing_of(const fs::path& folder) {
+  Listing listing;
+  std::error_code error;
+  for (auto at = fs::recursive_directory_iterator(folder, error);
+       !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    if (!at->is_directory(error)) listing[at->path()] = at->last_write_time(error);
+  }
+  return listing;
+}
+
+/// The current folder, HOME and TMPDIR are elsewhere while it lives.
+class Elsewhere {
+ public:
+  explicit Elsewhere(const fs::path& folder) : before_(fs::current_path()) {
+    for (std::size_t n = 0; n < kNames.size(); ++n) {
+      if (const char* value = std::getenv(kNames[n])) values_[n] = value;
+      fs::create_directories(folder / kNames[n]);
+      ::setenv(kNames[n], (folder / kNames[n]).c_str(), 1);
+    }
+    fs::create_directories(folder / "current");
+    fs::current_path(folder / "current");
+  }
+  ~Elsewhere() {
+    std::error_code ignored;
+    fs::current_path(before_, ignored);
+    for (std::size_t n = 0; n < kNames.size(); ++n) {
+      if (values_[n]) {
+        ::setenv(kNames[n], values_[n]->c_str(), 1);
+      } else {
+        ::unsetenv(kNames[n]);
+      }
+    }
+  }
+  Elsewhere(const Elsewhere&) = delete;
+  Elsewhere& operator=(const Elsewhere&) = delete;
+
+ private:
+  static constexpr std::array<const char*, 2> kNames{"HOME", "TMPDIR"};
+  fs::path before_;
+  std::array<std::optional<std::string>, 2> values_;
+};
+
+CheckResult check_tidy(const Bench& bench) {
+  const CheckSubject& subject = bench.subject();
+  const TemporaryWorkFolder folder("check");
+  std::set<fs::path> watched{folder.path()};
+  for (const fs::path& file : subject.method.files(subject.options)) {
+    watched.insert(fs::absolute(file).parent_path());
+  }
+  const auto look = [&] {
+    Listing listing;
+    for (const fs::path& place : watched) listing.merge(listing_of(place));
+    return listing;
+  };
+  // Options may name files relative to the current folder: only what is prepared goes elsewhere.
+  const auto body = bench.prepare();
+  const Listing before = look();
+  {
+    const Elsewhere elsewhere(folder.path());
+    for (int n = 0; n < 2; ++n) bench.blow(*body, bench.impact(n));
+  }
+  for (const auto& [path, time] : look()) {
+    const auto found = before.find(path);
+    if (found != before.end() && found->second == time) continue;
+    return failed(fmt::format("it leaves {} in {}", path.filename().string(),
+                              path.string().starts_with(folder.path().string())
+                                  ? path.parent_path().filename().string()
+                                  : path.parent_path().string()));
+  }
+  return passed();
+}
+
 struct Known {
   Check check;
   CheckResult (*make)(const Bench&);
@@ -302,6 +425,10 @@ const std::vector<Known>& known_checks() {
       {{"other-impact", "an answer does not depend on earlier impacts"}, check_other_impact},
       {{"save-load", "a body that was saved and loaded is the same"}, check_save_load},
       {{"weak-blow", "a blow that is too weak to matter has a sound answer, too"}, check_weak_blow},
+      {{"memory", "it needs no more memory than allowed, and gives it back after each blow"},
+       check_memory},
+      {{"tidy", "nothing is left in the current folder, HOME, TMPDIR or beside its own files"},
+       check_tidy},
       {{"cancel", "work ends within a second when it is asked to"}, check_cancel}};
   return all;
 }

@@ -31,6 +31,7 @@ struct CheckArguments {
   std::vector<std::string> only;
   double impulse = 2e5;
   double seconds = 120;
+  double memory_mb = 4000;
   bool inside = false;
   bool as_json = false;
 };
@@ -44,7 +45,8 @@ CheckResult check_here(const CheckArguments& a, const std::string& shape, const 
   }
   const Target target{.name = shape, .mesh = load_shape({.name = shape}).mesh, .material = {}};
   return make_check(name,
-                    {.method = method, .options = options, .target = target, .impulse = a.impulse});
+                    {.method = method, .options = options, .target = target,
+                     .impulse = a.impulse, .memory_mb = a.memory_mb});
 }
 
 /// The call of this program that makes one check.
@@ -54,7 +56,7 @@ std::vector<std::string> call_of(const CheckArguments& a, const std::string& sha
   std::vector<std::string> call{self,       "check",     a.method,
                                 "--shapes", shape,       "--only",
                                 name,       "--impulse", fmt::format("{}", a.impulse),
-                                "--inside"};
+                                "--inside", "--memory-mb", fmt::format("{}", a.memory_mb)};
   for (const std::string& setting : a.settings) {
     call.emplace_back("--set");
     call.push_back(setting);
@@ -174,6 +176,9 @@ void add_check_command(CLI::App& app, Action& chosen) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--seconds", a->seconds, "That a check may take")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--memory-mb", a->memory_mb, "MiB that preparing and breaking may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--inside", a->inside, "")->group("");

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string>
+#include <tuple>
 
 #include "tests/app/program.h"
 
@@ -90,6 +92,22 @@ TEST_F(HostileMethod, ThatIsNotRandomThoughItSaysSoIsFound) {
   EXPECT_EQ(check(two("0.4"), "other-seed")["other-seed"], "failed");
 }
 
+TEST_F(HostileMethod, ThatLeavesFilesBehindIsFound) {
+  EXPECT_EQ(check(two("0.4"), "tidy")["tidy"], "passed");
+  EXPECT_EQ(check("touch ~/.answers; " + two("0.4"), "tidy")["tidy"], "failed");
+  EXPECT_THAT(details_["tidy"], HasSubstr(".answers in HOME"));
+  EXPECT_EQ(check("touch $TMPDIR/more; " + two("0.4"), "tidy")["tidy"], "failed");
+  // Answers that are kept for the next impact.
+  EXPECT_EQ(check("cp $1/body.obj $(dirname $0)/memo; " + two("0.4"), "tidy")["tidy"], "failed");
+  EXPECT_THAT(details_["tidy"], HasSubstr("memo"));
+}
+
+TEST_F(HostileMethod, ThatTakesTooMuchMemoryIsFound) {
+  const std::string large = "dd if=/dev/zero of=/dev/null bs=200M count=1; ";
+  EXPECT_EQ(check(large + two("0.4"), "memory", "--memory-mb 100")["memory"], "failed");
+  EXPECT_EQ(check(two("0.4"), "memory")["memory"], "passed");
+}
+
 TEST(FractureCommand, TellsAMethodThatLeftTheBodyWholeFromABreakTestThatDidNotFire) {
   TemporaryFolder folder;
   folder.write("whole.sh", "cp $1/body.obj $2/body.obj\n");
@@ -100,17 +118,31 @@ TEST(FractureCommand, TellsAMethodThatLeftTheBodyWholeFromABreakTestThatDidNotFi
               HasSubstr("the break test did not fire"));
 }
 
-TEST(CheckCommand, MethodsThatAreBuiltInConform) {
+/// A built-in method, as it is called, and a generated shape.
+class BuiltIn : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+
+TEST_P(BuiltIn, Conforms) {
+  const auto& [method, shape] = GetParam();
   TemporaryFolder folder;
-  for (const char* method :
-       {"cvd", "modes --set modes=3 --set cage_faces=300",
-        "bem --set triangles=200 --set voxel=0.08 --set max_cracks=2 --set refracture_volume=1 "
-        "--only tags,closed,volume,same-seed,save-load,cancel"}) {
-    const Answer answer = call("check " + std::string(method), folder.path());
-    EXPECT_EQ(answer.exit_code, 0) << answer.output << answer.errors;
-    EXPECT_THAT(answer.output, HasSubstr("conforms"));
-  }
+  const Answer answer = call("check " + method + " --shapes " + shape, folder.path());
+  EXPECT_EQ(answer.exit_code, 0) << answer.output << answer.errors;
+  EXPECT_THAT(answer.output, HasSubstr("conforms"));
 }
+
+const auto kShapes = testing::Values("bar", "pot", "mug", "A", "chair", "plinth", "sphere", "cube",
+                                     "bunny");
+INSTANTIATE_TEST_SUITE_P(Cvd, BuiltIn, testing::Combine(testing::Values("cvd"), kShapes));
+INSTANTIATE_TEST_SUITE_P(Modes, BuiltIn,
+                         testing::Combine(testing::Values("modes --set modes=3 "
+                                                          "--set cage_faces=300"),
+                                          kShapes));
+// At a scale that takes seconds a shape, and with blows that break most of them.
+INSTANTIATE_TEST_SUITE_P(Bem, BuiltIn,
+                         testing::Combine(testing::Values("bem --set triangles=200 "
+                                                          "--set voxel=0.06 --set max_cracks=2 "
+                                                          "--set refracture_volume=1 "
+                                                          "--impulse 1e6"),
+                                          kShapes));
 
 TEST(CheckCommand, RefusesWhatItDoesNotKnow) {
   TemporaryFolder folder;

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "methods/cvd/cvd.h"
@@ -17,7 +20,7 @@ namespace {
 /// A sound method, but for one thing.
 class Spoiled : public Method {
  public:
-  enum class By { nothing, remembering, losing_what_it_saves, not_stopping };
+  enum class By { nothing, remembering, losing_what_it_saves, not_stopping, leaking, littering };
   explicit Spoiled(By by) : by_(by) {}
 
   MethodInfo info() const override { return sound_.info(); }
@@ -46,6 +49,8 @@ class Spoiled : public Method {
         while (context.stop.stop_possible() && std::chrono::steady_clock::now() < end) {
         }
       }
+      if (by_ == By::leaking) leaked_.emplace_back(100'000);
+      if (by_ == By::littering) std::ofstream("cache.txt") << "an answer";
       if (by_ != By::remembering) return sound_->fracture(impact, context);
       const std::scoped_lock lock(mutex_);
       if (!first_) first_ = sound_->fracture(impact, context);
@@ -57,6 +62,7 @@ class Spoiled : public Method {
     std::unique_ptr<Breakable> sound_;
     By by_;
     mutable std::mutex mutex_;
+    mutable std::vector<std::vector<char>> leaked_;
     mutable std::optional<std::vector<Piece>> first_;
   };
 
@@ -108,6 +114,28 @@ TEST(Conformance, FindsWhatIsLostBetweenSavingAndLoading) {
 TEST(Conformance, FindsWorkThatDoesNotStop) {
   const CheckResult found = result(Spoiled::By::not_stopping, "cancel");
   EXPECT_EQ(found.conformity, Conformity::failed) << found.detail;
+}
+
+TEST(Conformance, FindsMemoryThatIsNotGivenBackAndTooMuchOfIt) {
+  const CheckResult leak = result(Spoiled::By::leaking, "memory");
+  EXPECT_EQ(leak.conformity, Conformity::failed);
+  EXPECT_NE(leak.detail.find("leaves 98 KiB"), std::string::npos) << leak.detail;
+  const CvdMethod method;
+  const Target target{.name = "cube", .mesh = load_shape({.name = "cube"}).mesh, .material = {}};
+  const CheckResult much =
+      make_check("memory", {.method = method,
+                            .options = Options(method.options(), {}, "test"),
+                            .target = target,
+                            .memory_mb = 1});
+  EXPECT_EQ(much.conformity, Conformity::failed) << much.detail;
+}
+
+TEST(Conformance, FindsFilesThatAreLeftBehind) {
+  const auto before = std::filesystem::current_path();
+  const CheckResult found = result(Spoiled::By::littering, "tidy");
+  EXPECT_EQ(found.conformity, Conformity::failed);
+  EXPECT_EQ(found.detail, "it leaves cache.txt in current");
+  EXPECT_EQ(std::filesystem::current_path(), before);
 }
 
 TEST(Conformance, AnUnknownCheckIsRefusedWithTheNearest) {
