@@ -12,6 +12,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "harness/label_agreement.h"
 #include "harness/provenance.h"
 #include "harness/summaries.h"
 #include "harness/summary_file.h"
@@ -113,7 +114,8 @@ std::string notes_text(const std::vector<Acceptance>& notes) {
 
 Acceptance accept_summary(const fs::path& baseline, const fs::path& candidate, Acceptance note) {
   std::vector<Acceptance> notes = read_acceptances(baseline);
-  const Results results = read_results(candidate);
+  Results results = read_results(candidate);
+  add_label_agreement(candidate, results);
   note.when = utc_now();
   note.suite = results.suite.name;
   note.cells = results.cells.size();

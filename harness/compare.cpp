@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "harness/judge_gate.h"
+#include "harness/label_agreement.h"
 #include "harness/summary_file.h"
 
 namespace fracbench {
@@ -35,6 +36,14 @@ void require_known(const std::string& word, const std::vector<std::string>& know
       fmt::format("gate: the baseline has no {} '{}'{}", what, word, did_you_mean(word, known)));
 }
 
+/// The reference does not agree with itself.
+bool has_value(const Results& results, const std::string& label, const std::string& metric) {
+  return std::ranges::any_of(results.cells, [&](const CellSummary& cell) {
+    return cell.label == label &&
+           std::ranges::find(cell.values, metric, &MetricValue::name) != cell.values.end();
+  });
+}
+
 /// One gate for each method, and for each stage where it is about all of them.
 std::vector<std::pair<Gate, std::string>> expand(const std::vector<Gate>& gates,
                                                  const Results& baseline) {
@@ -56,6 +65,7 @@ std::vector<std::pair<Gate, std::string>> expand(const std::vector<Gate>& gates,
     for (const std::string& label : labels) {
       if (!gate.method.empty() && gate.method != label) continue;
       if (gate.relative_to == label) continue;
+      if (gate.metric == kLabelAgreement && !has_value(baseline, label, gate.metric)) continue;
       if (gate.metric != kEveryStage) {
         expanded.emplace_back(gate, label);
         continue;
@@ -191,8 +201,16 @@ Comparison compare_folders(const std::filesystem::path& baseline,
                      "with fracbench compare {} {} --accept --why TEXT",
                      baseline.string(), baseline.string(), candidate.string())});
   }
-  return compare_results(summary ? read_summary_file(baseline).results : read_results(baseline),
-                         read_results(candidate), gates);
+  // What has to be computed from meshes is read only where it is asked for.
+  const bool agreement = std::ranges::any_of(
+      gates, [](const Gate& gate) { return gate.metric == kLabelAgreement; });
+  const auto read = [&](const std::filesystem::path& folder) {
+    Results results = read_results(folder);
+    if (agreement) add_label_agreement(folder, results);
+    return results;
+  };
+  return compare_results(summary ? read_summary_file(baseline).results : read(baseline),
+                         read(candidate), gates);
 }
 
 }  // namespace fracbench
