@@ -4,11 +4,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 say() { printf '\n== %s\n' "$*"; }
 
-# The packages that are named in third_party/packages-debian.txt, and those of the tests where they
-# are wanted.
+# The packages that are named in third_party/packages-debian.txt, and those of the tests and of
+# fuzzing where they are wanted.
 wanted_packages() {
   local lists=(third_party/packages-debian.txt)
   [ -n "${FRACBENCH_WITH_TESTS:-}" ] && lists+=(third_party/packages-debian-tests.txt)
+  [ -n "${FRACBENCH_WITH_FUZZ:-}" ] && lists+=(third_party/packages-debian-fuzz.txt)
   sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "${lists[@]}"
 }
 

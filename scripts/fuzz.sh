@@ -12,10 +12,7 @@ case "${1:-}" in
   *) seconds=$1; shift ;;
 esac
 
-command -v clang++-16 >/dev/null || {
-  echo "fuzz.sh needs clang 16; on Debian 12: apt-get install clang-16 libclang-rt-16-dev libomp-16-dev" >&2
-  exit 2
-}
+FRACBENCH_WITH_FUZZ=1 ./scripts/install.sh
 
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
