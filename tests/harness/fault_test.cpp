@@ -14,10 +14,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "harness/data_file.h"
 #include "harness/record_store.h"
 #include "harness/runner.h"
 #include "harness/suite_overrides.h"
+#include "stored_results.h"
 #include "temporary_folder.h"
 #include "toy_catalog.h"
 
@@ -69,20 +69,6 @@ int fill(const fs::path& folder, Environment environment) {
   return status;
 }
 
-/// What records hold apart from times: names to bytes. Throws for one that is not whole.
-std::map<std::string, DataTree::Array> results_of(const fs::path& folder) {
-  std::map<std::string, DataTree::Array> all;
-  if (!fs::exists(folder / "records")) return all;
-  for (const fs::path& file : list_records(folder)) {
-    const DataTree tree = read_hdf5(file);
-    to_record(tree);
-    for (const auto& [path, array] : tree.arrays()) {
-      if (path.starts_with("result")) all[file.filename().string() + ":" + path] = array;
-    }
-  }
-  return all;
-}
-
 class FaultyRunTest : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -90,7 +76,7 @@ class FaultyRunTest : public testing::TestWithParam<std::string> {
     GTEST_SKIP() << "sanitizers want to be loaded first";
 #endif
     ASSERT_TRUE(run_suite(plan_, catalog_, {.folder = base() / "alone"}).complete());
-    alone_ = results_of(base() / "alone");
+    alone_ = stored_results(base() / "alone");
   }
 
   const fs::path& base() const { return temporary_.path(); }
@@ -124,12 +110,12 @@ TEST_P(FaultyRunTest, LosesNothingWhereverItStrikes) {
           << WEXITSTATUS(status);
       failed += WEXITSTATUS(status) == kFailed;
       if (WEXITSTATUS(status) == 0) {
-        EXPECT_TRUE(results_of(folder) == alone_) << "said to be done";
+        EXPECT_TRUE(stored_results(folder) == alone_) << "said to be done";
       }
     }
-    ASSERT_NO_THROW(results_of(folder));
+    ASSERT_NO_THROW(stored_results(folder));
     ASSERT_TRUE(run_suite(plan_, catalog_, {.folder = folder}).complete());
-    EXPECT_TRUE(results_of(folder) == alone_);
+    EXPECT_TRUE(stored_results(folder) == alone_);
     for (const auto& item : fs::directory_iterator(folder / "records")) {
       EXPECT_EQ(item.path().extension(), ".h5") << item.path();
     }
@@ -150,7 +136,7 @@ TEST_P(ShortAccess, WritesAndReadsThatDoHalfOfWhatTheyAreAskedForAreGoneOnWith) 
   for (int round = 0; round < 2; ++round) {  // the second reads what the first has written
     const int status = fill(folder, {{"FAULT_KIND", GetParam()}});
     ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
-    EXPECT_TRUE(results_of(folder) == alone_);
+    EXPECT_TRUE(stored_results(folder) == alone_);
   }
 }
 

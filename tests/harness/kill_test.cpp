@@ -12,10 +12,10 @@
 #include <thread>
 
 #include "core/random.h"
-#include "harness/data_file.h"
 #include "harness/record_store.h"
 #include "harness/runner.h"
 #include "harness/suite_overrides.h"
+#include "stored_results.h"
 #include "temporary_folder.h"
 #include "toy_catalog.h"
 
@@ -32,19 +32,6 @@ Plan kill_plan(const Catalog& catalog) {
   Suite suite = with_override(toy_suite(catalog), "repeats=5", catalog);
   suite = with_override(suite, "method.*.wait=0.004", catalog);
   return make_plan(suite, catalog);
-}
-
-/// What a record holds apart from times: names to bytes.
-std::map<std::string, DataTree::Array> results_of(const fs::path& folder) {
-  std::map<std::string, DataTree::Array> all;
-  for (const fs::path& file : list_records(folder)) {
-    const DataTree tree = read_hdf5(file);
-    to_record(tree);  // throws where the digests do not match
-    for (const auto& [path, array] : tree.arrays()) {
-      if (path.starts_with("result")) all[file.filename().string() + ":" + path] = array;
-    }
-  }
-  return all;
 }
 
 /// This same program, filling a folder; see the disabled test below.
@@ -104,13 +91,13 @@ TEST_P(KilledRunTest, GivesTheSameRecordsAsOneThatWasLeftAlone) {
     killed += WIFSIGNALED(status);
     const std::size_t there = list_records(base / "killed").size();
     partly += there > 0 && there < plan.cells.size();
-    ASSERT_NO_THROW(results_of(base / "killed")) << "after kill " << attempt;
+    ASSERT_NO_THROW(stored_results(base / "killed")) << "after kill " << attempt;
   }
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   EXPECT_GE(partly, 2) << "the kills came too early or too late to mean anything";
   EXPECT_GE(killed, 3);
   EXPECT_EQ(list_records(base / "killed").size(), plan.cells.size());
-  EXPECT_TRUE(results_of(base / "killed") == results_of(base / "alone"));
+  EXPECT_TRUE(stored_results(base / "killed") == stored_results(base / "alone"));
   for (const auto& item : fs::directory_iterator(base / "killed" / "records")) {
     EXPECT_EQ(item.path().extension(), ".h5");
   }
