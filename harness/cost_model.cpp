@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "harness/data_file.h"
-#include "harness/record.h"
 #include "harness/record_store.h"
+#include "harness/summary_cache.h"
 
 namespace fracbench {
 
@@ -56,9 +55,10 @@ CostEstimate estimate_cost(const Plan& plan, const std::filesystem::path& folder
   CostEstimate estimate{.cells = plan.cells.size(), .jobs = jobs};
   CostModel model;
   std::set<std::string> there;
+  SummaryCache cache(folder);
   for (const std::filesystem::path& file : list_records(folder)) {
     try {
-      const CellSummary summary = to_summary(read_hdf5(file, is_summary_array));
+      const CellSummary summary = cache.read(file);
       model.add(summary.shape, summary.label, summary.total_seconds);
       there.insert(file.stem().string());
     } catch (const DataError&) {

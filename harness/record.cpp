@@ -191,10 +191,16 @@ bool is_packed_array(std::string_view path) { return path != "result/trajectory/
 CellSummary to_summary(const DataTree& tree) {
   require_version(tree);
   const DataTree result = subtree(tree, "result/");
-  const CellIdentity identity = get_identity(result);
-  CellOutcome outcome = get_outcome(result);
-  CellCost cost = get_cost(subtree(tree, "machine/"));
-  CellSummary summary{.key = tree.text("key"),
+  return to_summary({.key = tree.text("key"),
+                     .identity = get_identity(result),
+                     .outcome = get_outcome(result),
+                     .cost = get_cost(subtree(tree, "machine/"))});
+}
+
+CellSummary to_summary(const Record& record) {
+  const auto& [key, identity, outcome, cost] = record;
+  const auto cpu = cost.provenance.find("cpu");
+  CellSummary summary{.key = key,
                       .method = identity.method,
                       .label = identity.label,
                       .method_options = identity.method_options,
@@ -205,18 +211,18 @@ CellSummary to_summary(const DataTree& tree) {
                       .seed = identity.seed,
                       .status = outcome.status,
                       .reason = outcome.reason,
-                      .values = std::move(outcome.measurement.values),
-                      .series = std::move(outcome.measurement.series),
-                      .stages = std::move(cost.stages),
+                      .values = outcome.measurement.values,
+                      .series = outcome.measurement.series,
+                      .stages = cost.stages,
                       .total_seconds = cost.total_seconds,
                       .prepare_seconds = cost.prepare_seconds,
                       .peak_memory = cost.peak_memory,
                       .threads = identity.threads,
                       .impulses = {},
                       .breaks = static_cast<int>(outcome.scene.impacts.size()),
-                      .cpu = cost.provenance["cpu"]};
-  for (MetricValue& value : cost.measurement.values) summary.values.push_back(std::move(value));
-  for (MetricSeries& series : cost.measurement.series) summary.series.push_back(std::move(series));
+                      .cpu = cpu == cost.provenance.end() ? "" : cpu->second};
+  for (const MetricValue& value : cost.measurement.values) summary.values.push_back(value);
+  for (const MetricSeries& series : cost.measurement.series) summary.series.push_back(series);
   const SceneResult& scene = outcome.scene;
   if (!scene.impacts.empty() || scene.unbroken) {
     const Impact& impact = scene.impacts.empty() ? *scene.unbroken : scene.impacts.front();

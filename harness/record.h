@@ -88,5 +88,6 @@ bool is_packed_array(std::string_view path);
 /// From a tree that holds at least the arrays of is_summary_array. Digests are not verified: see
 /// require_intact.
 CellSummary to_summary(const DataTree& tree);
+CellSummary to_summary(const Record& record);
 
 }  // namespace fracbench

@@ -28,6 +28,7 @@ TriangleMesh read_target(const std::filesystem::path& folder, std::string_view d
 ///   records/<key>.h5      one file per cell, whole or not there
 ///   shapes/<digest>.h5    the meshes of the targets
 ///   claims/               which cells somebody is working on
+///   summaries/            what the records say, for whoever needs no more (SummaryCache)
 /// Any number of threads, processes and machines may use it at the same time.
 class RecordStore {
  public:

@@ -18,9 +18,9 @@
 #include "core/error.h"
 #include "harness/cell_executor.h"
 #include "harness/cost_model.h"
-#include "harness/data_file.h"
 #include "harness/machine_load.h"
 #include "harness/record_store.h"
+#include "harness/summary_cache.h"
 #include "harness/workers/limits_met.h"
 
 namespace fracbench {
@@ -56,8 +56,13 @@ std::string describe(const Plan& plan, const Cell& cell) {
 /// One run: the queue of cells, the threads that empty it, and what is known of them.
 class Run {
  public:
-  Run(const Plan& plan, const RunOptions& options, const RecordStore& store, ExecuteCell execute)
-      : plan_(plan), options_(options), store_(store), execute_(std::move(execute)) {
+  Run(const Plan& plan, const RunOptions& options, const RecordStore& store,
+      SummaryCache& summaries, ExecuteCell execute)
+      : plan_(plan),
+        options_(options),
+        store_(store),
+        summaries_(summaries),
+        execute_(std::move(execute)) {
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
       queue_.push_back(i);
       ++remaining_[kind_of(plan.cells[i])];
@@ -173,6 +178,7 @@ class Run {
     const auto start = Clock::now();
     const Record record = execute(cell, index);
     store_.write(*claim, record);
+    summaries_.add(store_.record_file(cell.key), to_summary(record));
     const std::chrono::duration<double> seconds = Clock::now() - start;
     note(cell, record.outcome.status, seconds.count(), false);
     if (is_lost(record.outcome.status)) say_lost(cell, record.outcome);
@@ -214,13 +220,14 @@ class Run {
     std::string damage;
     std::string_view why = "damaged";
     try {
-      const Record record = store_.read(cell.key);
-      if (!may_do_better(record, plan_.methods[cell.method].limits)) {
-        note(cell, record.outcome.status, record.cost.total_seconds, true);
+      const CellSummary found = summaries_.read(store_.record_file(cell.key));
+      if (!is_lost(found.status) ||
+          !may_do_better(store_.read(cell.key), plan_.methods[cell.method].limits)) {
+        note(cell, found.status, found.total_seconds, true);
         return true;
       }
       why = "outdated";
-      damage = fmt::format("tells of a limit that is higher now ({})", record.outcome.reason);
+      damage = fmt::format("tells of a limit that is higher now ({})", found.reason);
     } catch (const DataError& error) {
       damage = error.what();
     }
@@ -289,6 +296,7 @@ class Run {
   const Plan& plan_;
   const RunOptions& options_;
   const RecordStore& store_;
+  SummaryCache& summaries_;
   const ExecuteCell execute_;
   const Clock::time_point start_ = Clock::now();
   std::stop_source stop_;
@@ -311,7 +319,8 @@ class Run {
 
 /// Sets aside records of cells of this plan that other sources or other mesh files made, so that
 /// nobody takes them for results of these.
-std::size_t set_aside_outdated(const Plan& plan, const RecordStore& store) {
+std::size_t set_aside_outdated(const Plan& plan, const RecordStore& store,
+                               SummaryCache& summaries) {
   using Place = std::tuple<std::string, std::string, std::string, std::string, int>;
   std::map<Place, std::string> planned;
   std::set<std::string> keys;
@@ -327,7 +336,7 @@ std::size_t set_aside_outdated(const Plan& plan, const RecordStore& store) {
     const std::string key = file.stem().string();
     if (keys.contains(key)) continue;
     try {
-      const CellSummary s = to_summary(read_hdf5(file, is_summary_array));
+      const CellSummary s = summaries.read(file);
       if (!planned.contains({s.shape, s.family, s.scenario, s.label, s.repeat})) continue;
     } catch (const DataError&) {
       // Of another version of the layout, or damaged: reports leave it out and say so.
@@ -351,7 +360,8 @@ RunResult run_suite(const Plan& plan, const Catalog& catalog, const RunOptions& 
                     .cells = plan.suite_cells,
                     .command = options.command});
   for (const PlannedShape& shape : plan.shapes) store.write_shape(shape.digest, shape.shape.mesh);
-  const std::size_t outdated = set_aside_outdated(plan, store);
+  SummaryCache summaries(options.folder);
+  const std::size_t outdated = set_aside_outdated(plan, store, summaries);
   if (outdated > 0 && options.message) {
     options.message(fmt::format(
         "{}: {} record{} of other sources of the program, of a method or of a mesh file "
@@ -365,7 +375,7 @@ RunResult run_suite(const Plan& plan, const Catalog& catalog, const RunOptions& 
       return executor.execute(cell, progress, stop);
     };
   }
-  return Run(plan, options, store, std::move(execute)).finish();
+  return Run(plan, options, store, summaries, std::move(execute)).finish();
 }
 
 }  // namespace fracbench

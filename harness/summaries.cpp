@@ -6,8 +6,8 @@
 #include <map>
 #include <tuple>
 
-#include "harness/data_file.h"
 #include "harness/record_store.h"
+#include "harness/summary_cache.h"
 
 namespace fracbench {
 
@@ -20,22 +20,14 @@ std::map<std::string, std::size_t> order_of(const nlohmann::ordered_json& suite,
   return order;
 }
 
-/// Reports believe nothing that cannot be verified, and the digests are over whole records.
-CellSummary read_summary(const std::filesystem::path& file) {
-  const DataTree tree = read_hdf5(file);
-  require_intact(tree);
-  CellSummary summary = to_summary(tree);
-  if (summary.key != file.stem().string()) throw DataError("is the record of another cell");
-  return summary;
-}
-
 }  // namespace
 
 Results read_results(const std::filesystem::path& folder) {
   Results results{.suite = read_stored_suite(folder), .cells = {}, .unreadable = {}};
+  SummaryCache cache(folder);
   for (const std::filesystem::path& file : list_records(folder)) {
     try {
-      results.cells.push_back(read_summary(file));
+      results.cells.push_back(cache.read(file));
     } catch (const DataError& error) {
       results.unreadable.push_back(fmt::format("{}: {}", file.string(), error.what()));
     }

@@ -23,6 +23,7 @@ struct ReportArguments {
   std::filesystem::path results;
   std::filesystem::path out;
   std::vector<std::string> items;
+  std::size_t cells = PageFilesOptions().cells;
   bool meshes = false;
 };
 
@@ -85,6 +86,7 @@ ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
   bool all_shown = true;
   const std::filesystem::path page = write_page(input, sections, arguments.results, arguments.out,
                                                 {.commands = commands_of(results),
+                                                 .cells = arguments.cells,
                                                  .meshes = arguments.meshes,
                                                  .stop = stop,
                                                  .progress = &progress,
@@ -110,8 +112,13 @@ void add_report_command(CLI::App& app, Action& chosen) {
                    "Only these sections, such as claims,fragment_counts (comma-separated); each "
                    "section of the page says its name")
       ->delimiter(',');
+  command
+      ->add_option("--cells", a->cells,
+                   "How many cells the page shows one by one: the first collisions of each shape; "
+                   "tables and figures are always of all")
+      ->capture_default_str();
   command->add_flag("--meshes", a->meshes,
-                    "Also the whole meshes of every cell, with their motion, as glTF");
+                    "Also the whole meshes of every cell shown, with their motion, as glTF");
   command->callback(
       [&chosen, a] { chosen = [a](const std::stop_token& stop) { return report(*a, stop); }; });
 }

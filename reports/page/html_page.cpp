@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "geometry/palette.h"
 #include "reports/cell_groups.h"
@@ -90,25 +91,35 @@ std::string section_html(const NamedSection& named, const PageOptions& options) 
   return html + "</section>\n";
 }
 
+using CellPlace = std::tuple<std::string, std::string, std::string, int, std::string>;
+
 /// The agreement of a cell with the reference, where it has one.
 std::map<std::string, double> agreements_by_cell(const ReportInput& input) {
-  std::map<std::string, double> result;
+  std::map<CellPlace, double> by_place;
   for (const ReferenceAgreement& pair : input.agreements) {
     if (pair.other_impact) continue;
-    for (const CellSummary& cell : input.cells) {
-      if (cell.shape == pair.shape && cell.label == pair.label && cell.family == pair.family &&
-          cell.scenario == pair.scenario && cell.repeat == pair.repeat) {
-        result[cell.key] = pair.partition.adjusted_rand;
-      }
-    }
+    by_place[{pair.shape, pair.family, pair.scenario, pair.repeat, pair.label}] =
+        pair.partition.adjusted_rand;
+  }
+  std::map<std::string, double> result;
+  for (const CellSummary& cell : input.cells) {
+    const auto found = by_place.find({cell.shape, cell.family, cell.scenario, cell.repeat, cell.label});
+    if (found != by_place.end()) result[cell.key] = found->second;
   }
   return result;
 }
 
 std::string cells_html(const ReportInput& input, const PageOptions& options) {
   const std::map<std::string, double> agreements = agreements_by_cell(input);
-  std::string html =
-      "<section id=\"cells\">\n<h2>Cells</h2>\n<div class=\"scroll tall\"><table>\n<thead><tr>";
+  std::string html = "<section id=\"cells\">\n<h2>Cells</h2>\n";
+  if (options.cells > input.cells.size()) {
+    html += fmt::format(
+        "<p>The first collisions of each shape: {} of {} cells, here and in the viewer. Tables and "
+        "figures are of all cells; <code>fracbench report --cells {}</code> shows all of them, in a "
+        "larger page.</p>\n",
+        input.cells.size(), options.cells, options.cells);
+  }
+  html += "<div class=\"scroll tall\"><table>\n<thead><tr>";
   for (const char* name : {"shape", "scenario", "repeat", "method", "status", "fragments",
                            "agreement", "time <small>[s]</small>", "record"}) {
     html += fmt::format("<th scope=\"col\">{}</th>", name);

@@ -12,6 +12,7 @@
 #include "geometry/write_motion.h"
 #include "harness/record_store.h"
 #include "reports/page/html_page.h"
+#include "reports/page/shown_cells.h"
 #include "reports/picture/record_picture.h"
 #include "reports/picture/sheet.h"
 #include "reports/scene_parts.h"
@@ -131,12 +132,19 @@ void write_pictures(const ReportInput& input, Reader& reader, const fs::path& fo
 
 bool has_viewer() { return !asset("page.js").empty(); }
 
-fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& sections,
+fs::path write_page(const ReportInput& all, const std::vector<NamedSection>& sections,
                     const fs::path& results, const fs::path& folder,
                     const PageFilesOptions& options) {
   make_folder(folder);
   const std::string script = asset("page.js");
   Reader reader(results);
+  const ReportInput input{.title = all.title,
+                          .cells = shown_cells(all.cells, options.cells),
+                          .agreements = all.agreements,
+                          .provenance = all.provenance,
+                          .suite = all.suite,
+                          .bootstrap = all.bootstrap,
+                          .seed = all.seed};
   PageOptions page{.script = !script.empty(), .viewed = {}, .commands = options.commands};
   if (page.script) {
     page.viewed = write_cells(input, reader, folder / "cells", options);
@@ -145,6 +153,7 @@ fs::path write_page(const ReportInput& input, const std::vector<NamedSection>& s
   write_pictures(input, reader, folder / "pictures", options);
   page.pictures = true;
   page.meshes = options.meshes;
+  page.cells = all.cells.size();
   write_file_atomically(folder / "page.css", asset("page.css"));
   std::ifstream suite(results / "suite.json", std::ios::binary);
   write_file_atomically(folder / "suite.json",

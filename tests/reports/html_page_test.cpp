@@ -39,6 +39,12 @@ TEST(HtmlPage, HasEverySectionAndALineForEachCell) {
   }
 }
 
+TEST(HtmlPage, SaysWhereNotAllCellsAreShown) {
+  const ReportInput input = two_methods(4, true);
+  EXPECT_EQ(page(input, {.cells = 8}).find("of 8 cells"), std::string::npos);
+  EXPECT_NE(page(input, {.cells = 800}).find("8 of 800 cells"), std::string::npos);
+}
+
 TEST(HtmlPage, LoadsNothingFromElsewhere) {
   const std::string html = page(two_methods(3, true));
   EXPECT_EQ(html.find("http://"), html.find("http://www.w3.org/2000/svg"));

@@ -1,0 +1,67 @@
+#include "harness/cell_summary_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fracbench {
+
+namespace {
+using Json = nlohmann::ordered_json;
+}
+
+Json to_json(const CellSummary& cell) {
+  Json values = Json::array(), series = Json::array(), stages = Json::array();
+  for (const MetricValue& v : cell.values) values.push_back({v.name, v.value, v.unit});
+  for (const MetricSeries& s : cell.series) series.push_back({s.name, s.values, s.unit});
+  for (const StageTime& stage : cell.stages) stages.push_back({stage.name, stage.seconds});
+  return {{"key", cell.key},
+          {"method", cell.method},
+          {"label", cell.label},
+          {"method_options", cell.method_options},
+          {"shape", cell.shape},
+          {"family", cell.family},
+          {"scenario", cell.scenario},
+          {"repeat", cell.repeat},
+          {"seed", cell.seed},
+          {"status", to_string(cell.status)},
+          {"reason", cell.reason},
+          {"values", values},
+          {"series", series},
+          {"stages", stages},
+          {"total_seconds", cell.total_seconds},
+          {"prepare_seconds", cell.prepare_seconds},
+          {"peak_memory", cell.peak_memory},
+          {"threads", cell.threads},
+          {"impulses", cell.impulses},
+          {"breaks", cell.breaks},
+          {"cpu", cell.cpu}};
+}
+
+CellSummary cell_summary_from_json(const Json& json) {
+  CellSummary cell{.key = json.at("key"),
+                   .method = json.at("method"),
+                   .label = json.at("label"),
+                   .method_options = json.at("method_options"),
+                   .shape = json.at("shape"),
+                   .family = json.at("family"),
+                   .scenario = json.at("scenario"),
+                   .repeat = json.at("repeat"),
+                   .seed = json.at("seed"),
+                   .status = parse_cell_status(json.at("status").get<std::string>()).value(),
+                   .reason = json.at("reason"),
+                   .values = {},
+                   .series = {},
+                   .stages = {},
+                   .total_seconds = json.at("total_seconds"),
+                   .prepare_seconds = json.at("prepare_seconds"),
+                   .peak_memory = json.at("peak_memory"),
+                   .threads = json.at("threads"),
+                   .impulses = json.at("impulses"),
+                   .breaks = json.at("breaks"),
+                   .cpu = json.at("cpu")};
+  for (const Json& v : json.at("values")) cell.values.push_back({v.at(0), v.at(1), v.at(2)});
+  for (const Json& s : json.at("series")) cell.series.push_back({s.at(0), s.at(1), s.at(2)});
+  for (const Json& s : json.at("stages")) cell.stages.push_back({s.at(0), s.at(1)});
+  return cell;
+}
+
+}  // namespace fracbench

@@ -1,0 +1,167 @@
+#include "harness/summary_cache.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "core/digest.h"
+#include "core/error.h"
+#include "harness/cell_summary_json.h"
+#include "harness/data_file.h"
+#include "harness/record.h"
+
+namespace fracbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view kEnding = ".jsonl";
+constexpr std::size_t kChecksumDigits = 16;
+constexpr std::size_t kLinesAtATime = 256;
+
+// Times of files go in ticks of some milliseconds. What changes twice within one looks as it was;
+// so a line is written only when a later change must show.
+constexpr auto kTick = std::chrono::milliseconds(20);
+
+std::string checksum(std::string_view text) {
+  Digest digest;
+  digest.add(text);
+  return digest.hex().substr(0, kChecksumDigits);
+}
+
+/// Reports believe nothing that cannot be verified, and the digests are over whole records.
+CellSummary read_verified(const fs::path& record) {
+  if (!fs::exists(record)) throw DataError("is missing");
+  const DataTree tree = read_hdf5(record);
+  require_intact(tree);
+  CellSummary summary = to_summary(tree);
+  if (summary.key != record.stem().string()) throw DataError("is the record of another cell");
+  return summary;
+}
+
+}  // namespace
+
+SummaryCache::SummaryCache(const fs::path& folder) : folder_(folder / "summaries") {
+  std::error_code none;
+  for (const auto& item : fs::directory_iterator(folder_, none)) {
+    if (item.path().extension() == kEnding) load(item.path());
+  }
+}
+
+SummaryCache::~SummaryCache() {
+  const std::scoped_lock lock(mutex_);
+  if (added_.empty()) return;
+  std::this_thread::sleep_until(added_.back().when + kTick);
+  write_settled();
+}
+
+CellSummary SummaryCache::read(const fs::path& record) {
+  const Stamp stamp = stamp_of(record);
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto known = known_.find(record.stem().string());
+    if (known != known_.end() && known->second.stamp == stamp) return known->second.summary;
+  }
+  CellSummary summary = read_verified(record);
+  add(record, stamp, summary);
+  return summary;
+}
+
+void SummaryCache::add(const fs::path& record, const CellSummary& summary) {
+  add(record, stamp_of(record), summary);
+}
+
+void SummaryCache::add(const fs::path& record, const Stamp& stamp, const CellSummary& summary) {
+  if (stamp == Stamp()) return;
+  std::string json;
+  try {
+    json = to_json(summary).dump();
+  } catch (const Json::exception&) {
+    return;  // text that is no UTF-8
+  }
+  const std::scoped_lock lock(mutex_);
+  if (!writable_) return;
+  added_.push_back({record, stamp, std::move(json), Clock::now()});
+  if (added_.size() % kLinesAtATime == 0) write_settled();
+}
+
+SummaryCache::Stamp SummaryCache::stamp_of(const fs::path& record) {
+  struct stat status = {};
+  if (::stat(record.c_str(), &status) != 0) return {};
+  const auto nanoseconds = [](const timespec& time) {
+    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+  };
+  return {.inode = static_cast<std::uint64_t>(status.st_ino),
+          .size = static_cast<std::uint64_t>(status.st_size),
+          .modified = nanoseconds(status.st_mtim),
+          .changed = nanoseconds(status.st_ctim)};
+}
+
+void SummaryCache::load(const fs::path& file) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) load_line(line);
+}
+
+/// A line that was cut short, or damaged, says nothing: its record is read instead.
+void SummaryCache::load_line(const std::string& line) {
+  if (line.size() <= kChecksumDigits) return;
+  const std::string_view text = std::string_view(line).substr(kChecksumDigits + 1);
+  if (checksum(text) != line.substr(0, kChecksumDigits)) return;
+  try {
+    const Json json = Json::parse(text);
+    const Json& stamp = json.at("record");
+    Known known{.stamp = {.inode = stamp.at(0),
+                          .size = stamp.at(1),
+                          .modified = stamp.at(2),
+                          .changed = stamp.at(3)},
+                .summary = cell_summary_from_json(json.at("cell"))};
+    std::string key = known.summary.key;
+    // A record that was made again stands in several lines; the youngest is of the file that is.
+    Known& kept = known_[std::move(key)];
+    if (known.stamp.changed >= kept.stamp.changed) kept = std::move(known);
+  } catch (const Json::exception&) {
+  } catch (const std::bad_optional_access&) {
+  }
+}
+
+void SummaryCache::write_settled() {
+  std::string lines;
+  std::vector<Added> fresh;
+  const auto now = Clock::now();
+  for (Added& item : added_) {
+    if (now - item.when < kTick) {
+      fresh.push_back(std::move(item));
+    } else if (stamp_of(item.record) == item.stamp) {
+      const Stamp& s = item.stamp;
+      const std::string text = fmt::format(R"({{"record":[{},{},{},{}],"cell":{}}})", s.inode,
+                                           s.size, s.modified, s.changed, item.json);
+      lines += checksum(text) + " " + text + "\n";
+    }
+  }
+  added_ = std::move(fresh);
+  if (!lines.empty()) append(lines);
+}
+
+void SummaryCache::append(const std::string& lines) {
+  std::error_code none;
+  fs::create_directory(folder_, none);
+  if (file_.empty()) {
+    std::random_device device;
+    file_ = folder_ / fmt::format("{:08x}{:08x}{}", device(), device(), kEnding);
+  }
+  const int file = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  writable_ = file >= 0 && ::write(file, lines.data(), lines.size()) ==
+                               static_cast<ssize_t>(lines.size());
+  if (file >= 0) ::close(file);
+}
+
+}  // namespace fracbench
