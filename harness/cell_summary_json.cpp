@@ -58,6 +58,9 @@ CellSummary cell_summary_from_json(const Json& json) {
                    .impulses = json.at("impulses"),
                    .breaks = json.at("breaks"),
                    .cpu = json.at("cpu")};
+  cell.values.reserve(json.at("values").size());
+  cell.series.reserve(json.at("series").size());
+  cell.stages.reserve(json.at("stages").size());
   for (const Json& v : json.at("values")) cell.values.push_back({v.at(0), v.at(1), v.at(2)});
   for (const Json& s : json.at("series")) cell.series.push_back({s.at(0), s.at(1), s.at(2)});
   for (const Json& s : json.at("stages")) cell.stages.push_back({s.at(0), s.at(1)});

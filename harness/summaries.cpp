@@ -27,7 +27,7 @@ Results read_results(const std::filesystem::path& folder) {
   SummaryCache cache(folder);
   for (const std::filesystem::path& file : list_records(folder)) {
     try {
-      results.cells.push_back(cache.read(file));
+      results.cells.push_back(cache.take(file));
     } catch (const DataError& error) {
       results.unreadable.push_back(fmt::format("{}: {}", file.string(), error.what()));
     }

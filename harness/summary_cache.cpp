@@ -64,12 +64,21 @@ SummaryCache::~SummaryCache() {
   write_settled();
 }
 
-CellSummary SummaryCache::read(const fs::path& record) {
+CellSummary SummaryCache::read(const fs::path& record) { return find(record, true); }
+
+CellSummary SummaryCache::take(const fs::path& record) { return find(record, false); }
+
+CellSummary SummaryCache::find(const fs::path& record, bool keep) {
   const Stamp stamp = stamp_of(record);
   {
     const std::scoped_lock lock(mutex_);
     const auto known = known_.find(record.stem().string());
-    if (known != known_.end() && known->second.stamp == stamp) return known->second.summary;
+    if (known != known_.end() && known->second.stamp == stamp) {
+      if (keep) return known->second.summary;
+      CellSummary summary = std::move(known->second.summary);
+      known_.erase(known);
+      return summary;
+    }
   }
   CellSummary summary = read_verified(record);
   add(record, stamp, summary);

@@ -32,6 +32,8 @@ class SummaryCache {
   /// Of a record whose bytes are verified, now or since they last changed. Throws DataError where
   /// it is missing or damaged, or is the record of another cell.
   CellSummary read(const std::filesystem::path& record);
+  /// The same for who asks once: it is not kept in memory any longer.
+  CellSummary take(const std::filesystem::path& record);
 
   /// The summary of a record that the caller has just written.
   void add(const std::filesystem::path& record, const CellSummary& summary);
@@ -56,6 +58,7 @@ class SummaryCache {
     std::chrono::steady_clock::time_point when;
   };
 
+  CellSummary find(const std::filesystem::path& record, bool keep);
   static Stamp stamp_of(const std::filesystem::path& record);
   void load(const std::filesystem::path& file);
   void load_line(const std::string& line);

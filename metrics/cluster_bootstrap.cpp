@@ -61,6 +61,7 @@ std::optional<BootstrapInterval> cluster_bootstrap(std::size_t clusters,
   const auto estimate = statistic(chosen);
   if (!estimate) return std::nullopt;
 
+  chosen.resize(std::min(clusters, std::max<std::size_t>(options.most_clusters, 2)));
   std::vector<double> values;
   values.reserve(options.resamples);
   for (int i = 0; i < options.resamples; ++i) {
@@ -73,6 +74,18 @@ std::optional<BootstrapInterval> cluster_bootstrap(std::size_t clusters,
 
   double low = (1 - options.confidence) / 2;
   double high = 1 - low;
+  if (chosen.size() < clusters) {
+    const double scale =
+        std::sqrt(static_cast<double>(chosen.size()) / static_cast<double>(clusters));
+    const double median = quantile(values, 0.5).value();
+    const auto about_estimate = [&](double p) {
+      return *estimate + scale * (quantile(values, p).value() - median);
+    };
+    return BootstrapInterval{.estimate = *estimate,
+                             .low = about_estimate(low),
+                             .high = about_estimate(high),
+                             .resamples = static_cast<int>(values.size())};
+  }
   if (options.corrected) {
     // Ties count half, so that a statistic that takes few values is not seen as biased.
     double below = 0;

@@ -15,6 +15,12 @@ struct BootstrapOptions {
   /// Corrected for bias and skewness (BCa; Efron, "Better bootstrap confidence intervals", 1987),
   /// else the plain percentiles.
   bool corrected = true;
+  /// Beyond so many clusters a resample draws only as many, which makes the cost of an interval
+  /// independent of how many there are (m out of n; Bickel, Goetze and van Zwet, "Resampling fewer
+  /// than n observations", 1997): the spread of the resamples about their median, times
+  /// sqrt(most_clusters / clusters), is laid about the estimate. Nothing else is corrected then:
+  /// bias and skewness vanish with the number of clusters.
+  std::size_t most_clusters = 500;
 };
 
 struct BootstrapInterval {

@@ -78,6 +78,31 @@ TEST(ClusterBootstrap, width_of_the_mean_is_that_of_the_cluster_means) {
   EXPECT_GT(interval->high, interval->estimate);
 }
 
+TEST(ClusterBootstrap, drawing_fewer_clusters_than_there_are_gives_the_same_width) {
+  Random random(5);
+  const Clusters data = clustered_data(random, 4000, 3);
+  const auto all =
+      cluster_bootstrap(data.size(), mean_of(data), {.most_clusters = data.size()}, random);
+  const auto few = cluster_bootstrap(data.size(), mean_of(data), {.most_clusters = 200}, random);
+  EXPECT_EQ(few->estimate, all->estimate);
+  // The standard error of a quantile of 2000 resamples is 3 % of the width.
+  EXPECT_NEAR((few->high - few->low) / (all->high - all->low), 1, 0.1);
+  EXPECT_NEAR(few->high + few->low, all->high + all->low, 0.2 * (all->high - all->low));
+}
+
+TEST(ClusterBootstrap, costs_no_more_for_more_clusters) {
+  for (const std::size_t clusters : {1000, 100000}) {
+    Random random(1);
+    std::size_t drawn = 0;
+    const ClusterStatistic count = [&](std::span<const std::size_t> chosen) {
+      drawn += chosen.size();
+      return std::optional(static_cast<double>(chosen.front()));
+    };
+    cluster_bootstrap(clusters, count, {.resamples = 100}, random);
+    EXPECT_EQ(drawn, clusters + 100 * BootstrapOptions().most_clusters);
+  }
+}
+
 TEST(ClusterBootstrap, same_seed_gives_the_same_interval) {
   Random random(4);
   const Clusters data = clustered_data(random, 20, 5);
