@@ -4,9 +4,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <thread>
 
 namespace fracbench {
+
+/// Of this machine.
+inline int hardware_threads() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 /// Calls work(i) for every i in [0, count), on up to `threads` threads. The calls must not depend
 /// on each other: then the result is the same for any number of threads.

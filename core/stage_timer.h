@@ -1,14 +1,15 @@
 #pragma once
 
 #include <chrono>
-#include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/name.h"
 
 namespace fracbench {
 
 struct StageTime {
-  std::string name;
+  Name name;
   double seconds = 0;
 };
 

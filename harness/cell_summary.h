@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/name.h"
 #include "core/stage_timer.h"
 #include "harness/cell_status.h"
 #include "metrics/metric.h"
@@ -13,11 +14,11 @@ namespace fracbench {
 /// What reports need of one cell: everything in its record but the meshes and the trajectory.
 struct CellSummary {
   std::string key;     ///< of the record, 64 hexadecimal digits
-  std::string method;  ///< name in the registry
-  std::string label;   ///< name in the suite; the same as `method` unless the suite says otherwise
-  std::string method_options;  ///< JSON, defaults included
-  std::string shape;
-  std::string family;    ///< of the scenario
+  Name method;  ///< name in the registry
+  Name label;   ///< name in the suite; the same as `method` unless the suite says otherwise
+  Name method_options;  ///< JSON, defaults included
+  Name shape;
+  Name family;    ///< of the scenario
   std::string scenario;  ///< unique within its family
   int repeat = 0;
   std::uint64_t seed = 0;  ///< of the method; methods that meet the same impact differ in it
@@ -37,7 +38,7 @@ struct CellSummary {
   /// strongest first, N s; empty where nothing touched it.
   std::vector<double> impulses;
   int breaks = 0;  ///< how many bodies broke, the target included
-  std::string cpu;
+  Name cpu;
 };
 
 }  // namespace fracbench

@@ -5,20 +5,24 @@
 namespace fracbench {
 
 namespace {
+
 using Json = nlohmann::ordered_json;
+
+Name name_from_json(const Json& json) { return json.get_ref<const std::string&>(); }
+
 }
 
 Json to_json(const CellSummary& cell) {
   Json values = Json::array(), series = Json::array(), stages = Json::array();
-  for (const MetricValue& v : cell.values) values.push_back({v.name, v.value, v.unit});
-  for (const MetricSeries& s : cell.series) series.push_back({s.name, s.values, s.unit});
-  for (const StageTime& stage : cell.stages) stages.push_back({stage.name, stage.seconds});
+  for (const MetricValue& v : cell.values) values.push_back({v.name.text(), v.value, v.unit.text()});
+  for (const MetricSeries& s : cell.series) series.push_back({s.name.text(), s.values, s.unit.text()});
+  for (const StageTime& stage : cell.stages) stages.push_back({stage.name.text(), stage.seconds});
   return {{"key", cell.key},
-          {"method", cell.method},
-          {"label", cell.label},
-          {"method_options", cell.method_options},
-          {"shape", cell.shape},
-          {"family", cell.family},
+          {"method", cell.method.text()},
+          {"label", cell.label.text()},
+          {"method_options", cell.method_options.text()},
+          {"shape", cell.shape.text()},
+          {"family", cell.family.text()},
           {"scenario", cell.scenario},
           {"repeat", cell.repeat},
           {"seed", cell.seed},
@@ -33,16 +37,16 @@ Json to_json(const CellSummary& cell) {
           {"threads", cell.threads},
           {"impulses", cell.impulses},
           {"breaks", cell.breaks},
-          {"cpu", cell.cpu}};
+          {"cpu", cell.cpu.text()}};
 }
 
 CellSummary cell_summary_from_json(const Json& json) {
   CellSummary cell{.key = json.at("key"),
-                   .method = json.at("method"),
-                   .label = json.at("label"),
-                   .method_options = json.at("method_options"),
-                   .shape = json.at("shape"),
-                   .family = json.at("family"),
+                   .method = name_from_json(json.at("method")),
+                   .label = name_from_json(json.at("label")),
+                   .method_options = name_from_json(json.at("method_options")),
+                   .shape = name_from_json(json.at("shape")),
+                   .family = name_from_json(json.at("family")),
                    .scenario = json.at("scenario"),
                    .repeat = json.at("repeat"),
                    .seed = json.at("seed"),
@@ -57,13 +61,13 @@ CellSummary cell_summary_from_json(const Json& json) {
                    .threads = json.at("threads"),
                    .impulses = json.at("impulses"),
                    .breaks = json.at("breaks"),
-                   .cpu = json.at("cpu")};
+                   .cpu = name_from_json(json.at("cpu"))};
   cell.values.reserve(json.at("values").size());
   cell.series.reserve(json.at("series").size());
   cell.stages.reserve(json.at("stages").size());
-  for (const Json& v : json.at("values")) cell.values.push_back({v.at(0), v.at(1), v.at(2)});
-  for (const Json& s : json.at("series")) cell.series.push_back({s.at(0), s.at(1), s.at(2)});
-  for (const Json& s : json.at("stages")) cell.stages.push_back({s.at(0), s.at(1)});
+  for (const Json& v : json.at("values")) cell.values.push_back({name_from_json(v.at(0)), v.at(1), name_from_json(v.at(2))});
+  for (const Json& s : json.at("series")) cell.series.push_back({name_from_json(s.at(0)), s.at(1), name_from_json(s.at(2))});
+  for (const Json& s : json.at("stages")) cell.stages.push_back({name_from_json(s.at(0)), s.at(1)});
   return cell;
 }
 

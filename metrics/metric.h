@@ -6,6 +6,7 @@
 
 #include "core/fragments.h"
 #include "core/impact.h"
+#include "core/name.h"
 #include "core/stage_timer.h"
 #include "core/triangle_mesh.h"
 
@@ -24,16 +25,16 @@ struct CellResult {
 
 /// One number, finite; a quantity that does not exist (the mean of nothing) is left out.
 struct MetricValue {
-  std::string name;
+  Name name;
   double value = 0;
-  std::string unit;  ///< empty: a pure number
+  Name unit;  ///< empty: a pure number
 };
 
 /// Many numbers, such as the volume of each fragment.
 struct MetricSeries {
-  std::string name;
+  Name name;
   std::vector<double> values;
-  std::string unit;
+  Name unit;
 };
 
 struct Measurement {

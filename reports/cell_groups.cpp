@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <tuple>
 
 #include "metrics/summary.h"
@@ -39,7 +40,7 @@ std::size_t method_place(const ReportInput& input, std::string_view label) {
 }
 
 int cut_resolution(const CellSummary& cell) {
-  const auto options = nlohmann::json::parse(cell.method_options, nullptr, false);
+  const auto options = nlohmann::json::parse(cell.method_options.text(), nullptr, false);
   if (!options.is_object()) return 0;
   if (const int chosen = options.value("resolution", 0); chosen > 0) return chosen;
   double finest = 0;
@@ -93,11 +94,21 @@ std::vector<std::vector<CellRef>> by_collision(std::span<const CellRef> cells) {
   return collisions;
 }
 
+TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
+                   const ReportInput& input, std::string_view name) {
+  std::vector<std::size_t> all(collisions);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const auto value = statistic(all);
+  if (!value || !std::isfinite(*value)) return {};
+  Random random(derive_seed(input.seed, {"report", name}));
+  const auto interval = cluster_bootstrap(collisions, statistic, input.bootstrap, random);
+  if (!interval) return *value;
+  return Estimate{.value = *value, .low = interval->low, .high = interval->high};
+}
+
 TableCell estimate(std::span<const CellRef> cells,
                    const std::function<std::optional<double>(std::span<const CellRef>)>& statistic,
                    const ReportInput& input, std::string_view name) {
-  const auto value = statistic(cells);
-  if (!value || !std::isfinite(*value)) return {};
   const std::vector<std::vector<CellRef>> collisions = by_collision(cells);
   const auto of_chosen = [&](std::span<const std::size_t> chosen) {
     std::vector<CellRef> pooled;
@@ -106,22 +117,24 @@ TableCell estimate(std::span<const CellRef> cells,
     }
     return statistic(pooled);
   };
-  Random random(derive_seed(input.seed, {"report", name}));
-  const auto interval = cluster_bootstrap(collisions.size(), of_chosen, input.bootstrap, random);
-  if (!interval) return *value;
-  return Estimate{.value = *value, .low = interval->low, .high = interval->high};
+  return estimate(collisions.size(), of_chosen, input, name);
 }
 
 TableCell estimated_mean(std::span<const CellRef> cells, std::string_view metric,
                          const ReportInput& input) {
-  return estimate(
-      cells,
-      [&](std::span<const CellRef> chosen) -> std::optional<double> {
-        const std::vector<double> values = values_of(chosen, metric);
-        if (values.empty()) return std::nullopt;
-        return summarize(values).mean;
-      },
-      input, metric);
+  std::vector<std::vector<double>> values;
+  for (const std::vector<CellRef>& collision : by_collision(cells)) {
+    values.push_back(values_of(collision, metric));
+  }
+  const auto mean = [&](std::span<const std::size_t> chosen) -> std::optional<double> {
+    std::vector<double> pooled;
+    for (const std::size_t c : chosen) {
+      pooled.insert(pooled.end(), values[c].begin(), values[c].end());
+    }
+    if (pooled.empty()) return std::nullopt;
+    return summarize(pooled).mean;
+  };
+  return estimate(values.size(), mean, input, metric);
 }
 
 }  // namespace fracbench

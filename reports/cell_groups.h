@@ -56,6 +56,10 @@ TableCell estimate(std::span<const CellRef> cells,
                    const std::function<std::optional<double>(std::span<const CellRef>)>& statistic,
                    const ReportInput& input, std::string_view name);
 
+/// The same for a statistic of collisions, by their numbers.
+TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
+                   const ReportInput& input, std::string_view name);
+
 /// The same for the mean of a metric.
 TableCell estimated_mean(std::span<const CellRef> cells, std::string_view metric,
                          const ReportInput& input);

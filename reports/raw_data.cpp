@@ -25,8 +25,8 @@ const std::vector<TableColumn> kIdentity{{"shape"},    {"label"},  {"method"}, {
 
 }  // namespace
 
-Table cells_table(const ReportInput& input) {
-  Table table{.name = "cells", .title = "All cells", .columns = kIdentity, .in_text = false};
+std::string cells_csv(const ReportInput& input) {
+  Table table{.name = {}, .title = {}, .columns = kIdentity};
   for (const char* name : {"status", "reason", "breaks"}) table.columns.push_back({name});
   table.columns.push_back({"impulse", "N s"});
   table.columns.push_back({"threads"});
@@ -41,6 +41,7 @@ Table cells_table(const ReportInput& input) {
     }
   }
   table.columns.insert(table.columns.end(), metrics.begin(), metrics.end());
+  std::string text = to_csv(table);
   for (const CellSummary& cell : input.cells) {
     std::optional<double> strongest;
     if (!cell.impulses.empty()) strongest = cell.impulses.front();
@@ -51,25 +52,29 @@ Table cells_table(const ReportInput& input) {
     for (const TableColumn& metric : metrics) {
       row.push_back(number_or_nothing(value_of(cell, metric.name)));
     }
-    table.rows.push_back(std::move(row));
+    table.rows = {std::move(row)};
+    text += csv_rows(table);
   }
-  return table;
+  return text;
 }
 
-Table volumes_table(const ReportInput& input) {
-  Table table{.name = "volumes", .title = "All fragments", .columns = kIdentity, .in_text = false};
+std::string volumes_csv(const ReportInput& input) {
+  Table table{.name = {}, .title = {}, .columns = kIdentity};
   table.columns.push_back({"status"});
   table.columns.push_back({"fragment"});
   table.columns.push_back({"volume", "V_body / 10"});
+  std::string text = to_csv(table);
   for (const CellSummary& cell : input.cells) {
+    table.rows.clear();
     std::int64_t number = 0;
     for (const double volume : series_of(cell, "fragment_volume")) {
       std::vector<TableCell> row = identity(cell);
       row.insert(row.end(), {std::string(to_string(cell.status)), number++, volume});
       table.rows.push_back(std::move(row));
     }
+    text += csv_rows(table);
   }
-  return table;
+  return text;
 }
 
 }  // namespace fracbench

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -25,8 +24,8 @@ std::vector<const ReportItem*> select_items(std::span<const std::string> names) 
   }
   for (const std::string& name : names) {
     if (std::ranges::find(known, name) == known.end()) {
-      throw InputError(fmt::format("--items: there is no item '{}'{}", name,
-                                   did_you_mean(name, known)));
+      throw InputError(
+          fmt::format("--items: there is no item '{}'{}", name, did_you_mean(name, known)));
     }
   }
   return selected;
@@ -38,8 +37,7 @@ std::vector<NamedSection> render_sections(const ReportInput& input,
                                           std::span<const std::string> names) {
   const std::vector<const ReportItem*> items = select_items(names);
   std::vector<NamedSection> sections(items.size());
-  const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  parallel_for(items.size(), threads, [&](std::size_t i) {
+  parallel_for(items.size(), hardware_threads(), [&](std::size_t i) {
     sections[i] = {.item = items[i]->info(), .section = items[i]->render(input)};
   });
   std::erase_if(sections, [](const NamedSection& named) { return named.section.empty(); });

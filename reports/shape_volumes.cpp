@@ -34,4 +34,28 @@ std::vector<double> volumes_above(std::span<const CellRef> cells, double cut) {
   return volumes;
 }
 
+CollisionVolumes::CollisionVolumes(std::span<const std::vector<CellRef>> collisions,
+                                   std::string_view label, double cut)
+    : collisions_(collisions.size()) {
+  for (std::size_t c = 0; c < collisions.size(); ++c) {
+    for (const CellSummary& cell : collisions[c]) {
+      if (cell.label != label) continue;
+      for (const double volume : series_of(cell, "fragment_volume")) {
+        if (volume > cut) volumes_.emplace_back(volume, c);
+      }
+    }
+  }
+  std::ranges::sort(volumes_);
+}
+
+std::vector<double> CollisionVolumes::of(std::span<const std::size_t> chosen) const {
+  std::vector<std::size_t> times(collisions_, 0);
+  for (const std::size_t c : chosen) ++times[c];
+  std::vector<double> volumes;
+  for (const auto& [volume, collision] : volumes_) {
+    volumes.insert(volumes.end(), times[collision], volume);
+  }
+  return volumes;
+}
+
 }  // namespace fracbench

@@ -68,6 +68,15 @@ std::vector<bool> columns_with_any(const Table& table, const Predicate& holds) {
   return result;
 }
 
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) {
+    if (&field != fields.data()) line += ',';
+    line += quoted(field);
+  }
+  return line + "\r\n";
+}
+
 }  // namespace
 
 TableCell number_or_nothing(std::optional<double> number) {
@@ -110,42 +119,36 @@ std::string to_markdown(const Table& table) {
 
 std::string to_csv(const Table& table) {
   const std::vector<bool> wide = columns_with_any(table, is_estimate);
-  std::string result;
-  bool line_begins = true;
-  const auto put = [&](std::string_view text) {
-    if (!line_begins) result += ',';
-    result += quoted(text);
-    line_begins = false;
-  };
-  const auto end_line = [&] {
-    result += "\r\n";
-    line_begins = true;
-  };
+  std::vector<std::string> header;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    put(heading(table.columns[c]));
+    header.push_back(heading(table.columns[c]));
     if (!wide[c]) continue;
-    put(heading(table.columns[c], " low"));
-    put(heading(table.columns[c], " high"));
+    header.push_back(heading(table.columns[c], " low"));
+    header.push_back(heading(table.columns[c], " high"));
   }
-  end_line();
+  return csv_line(header) + csv_rows(table);
+}
+
+std::string csv_rows(const Table& table) {
+  const std::vector<bool> wide = columns_with_any(table, is_estimate);
+  std::string result;
   for (const auto& row : table.rows) {
+    std::vector<std::string> fields;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::size_t before = wide[c] ? 3 : 1;
-      std::size_t given = 1;
-      std::visit(
-          Overloaded{[&](std::monostate) { put(""); }, [&](const std::string& text) { put(text); },
-                     [&](std::int64_t number) { put(fmt::format("{}", number)); },
-                     [&](double number) { put(fmt::format("{}", number)); },
-                     [&](const Estimate& e) {
-                       put(fmt::format("{}", e.value));
-                       put(fmt::format("{}", e.low));
-                       put(fmt::format("{}", e.high));
-                       given = 3;
-                     }},
-          row[c]);
-      for (; given < before; ++given) put("");
+      const std::size_t end = fields.size() + (wide[c] ? 3 : 1);
+      std::visit(Overloaded{[&](std::monostate) {},
+                            [&](const std::string& text) { fields.push_back(text); },
+                            [&](std::int64_t number) { fields.push_back(fmt::format("{}", number)); },
+                            [&](double number) { fields.push_back(fmt::format("{}", number)); },
+                            [&](const Estimate& e) {
+                              for (const double number : {e.value, e.low, e.high}) {
+                                fields.push_back(fmt::format("{}", number));
+                              }
+                            }},
+                 row[c]);
+      fields.resize(end);
     }
-    end_line();
+    result += csv_line(fields);
   }
   return result;
 }

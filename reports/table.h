@@ -46,6 +46,9 @@ std::string to_markdown(const Table& table);
 /// bits. A column with estimates becomes three: name, "name low" and "name high".
 std::string to_csv(const Table& table);
 
+/// The same without the header: a table that is too long to hold comes in parts.
+std::string csv_rows(const Table& table);
+
 /// Four significant digits, without trailing zeros; what is shorter in powers of ten is so.
 std::string short_number(double value);
 

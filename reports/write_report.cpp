@@ -44,8 +44,8 @@ std::vector<ReportFile> render_report(const ReportInput& input,
       text += fmt::format("\n[{0}.csv]({0}.csv)\n", table.name);
     }
   }
-  add_csv(cells_table(input));
-  add_csv(volumes_table(input));
+  files.push_back({"cells.csv", cells_csv(input)});
+  files.push_back({"volumes.csv", volumes_csv(input)});
   files.push_back({"report.md", std::move(text)});
   return files;
 }

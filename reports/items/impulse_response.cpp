@@ -33,15 +33,20 @@ Response response_of(std::span<const CellRef> cells) {
 }
 
 /// Spearman's, with the interval from drawing collisions.
-TableCell correlation(std::span<const CellRef> cells, std::vector<double> Response::*quantity,
-                      const ReportInput& input, std::string_view name) {
-  return estimate(
-      cells,
-      [&](std::span<const CellRef> chosen) {
-        const Response response = response_of(chosen);
-        return rank_correlation(response.impulse, response.*quantity);
-      },
-      input, name);
+TableCell correlation(const std::vector<Response>& collisions,
+                      std::vector<double> Response::*quantity, const ReportInput& input,
+                      std::string_view name) {
+  const auto statistic = [&](std::span<const std::size_t> chosen) {
+    std::vector<double> impulse;
+    std::vector<double> answer;
+    for (const std::size_t c : chosen) {
+      const Response& response = collisions[c];
+      impulse.insert(impulse.end(), response.impulse.begin(), response.impulse.end());
+      answer.insert(answer.end(), (response.*quantity).begin(), (response.*quantity).end());
+    }
+    return rank_correlation(impulse, answer);
+  };
+  return estimate(collisions.size(), statistic, input, name);
 }
 
 Table response_table(const std::vector<CellGroup>& groups, const ReportInput& input) {
@@ -58,13 +63,14 @@ Table response_table(const std::vector<CellGroup>& groups, const ReportInput& in
                           {"volume of the largest"}}};
   for (const CellGroup& group : groups) {
     const std::vector<CellRef> cells = broken_cells(group.cells);
-    const Response response = response_of(cells);
-    if (response.impulse.size() < 3) continue;
+    if (response_of(cells).impulse.size() < 3) continue;
+    std::vector<Response> collisions;
+    for (const auto& collision : by_collision(cells)) collisions.push_back(response_of(collision));
     const std::string name = group.shape + " " + group.label;
     table.rows.push_back(
-        {group.shape, group.label, static_cast<std::int64_t>(by_collision(cells).size()),
-         correlation(cells, &Response::count, input, name + " impulse count"),
-         correlation(cells, &Response::largest, input, name + " impulse largest")});
+        {group.shape, group.label, static_cast<std::int64_t>(collisions.size()),
+         correlation(collisions, &Response::count, input, name + " impulse count"),
+         correlation(collisions, &Response::largest, input, name + " impulse largest")});
   }
   return table;
 }

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
+#include "core/parallel.h"
 #include "metrics/distribution_distance.h"
 #include "metrics/fragment_volumes.h"
 #include "metrics/mott.h"
@@ -19,20 +21,41 @@ namespace {
 
 constexpr const char* kVolumeUnit = "V_body / 10";
 
+/// Something of a sample, ascending, and the law that is fitted to it.
 using Distance = std::function<double(const std::vector<double>& volumes, const Mott& law)>;
 
-// The distance of a sample to the law that is fitted to it, fitted anew in each resample.
-TableCell distance_to_law(const CellGroup& group, double cut, const ReportInput& input,
-                          std::string_view name, const Distance& distance) {
-  return estimate(
-      group.cells,
-      [&](std::span<const CellRef> cells) -> std::optional<double> {
-        const std::vector<double> volumes = volumes_above(cells, cut);
-        const auto law = Mott::fit(volumes, cut);
-        if (!law) return std::nullopt;
-        return distance(volumes, *law);
-      },
-      input, fmt::format("{} {} {}", group.shape, group.label, name));
+std::vector<TableCell> mott_row(const ShapeVolumes& shape, const CellGroup& group,
+                                const ReportInput& input) {
+  const std::vector<std::vector<CellRef>> collisions = by_collision(group.cells);
+  const CollisionVolumes volumes(collisions, group.label, shape.cut);
+  // Of the sample and the law that is fitted to it, fitted anew in each resample.
+  const auto estimated = [&](std::string_view name, const Distance& distance) {
+    const auto statistic = [&](std::span<const std::size_t> chosen) -> std::optional<double> {
+      const std::vector<double> sample = volumes.of(chosen);
+      const auto law = Mott::fit(sample, shape.cut);
+      if (!law) return std::nullopt;
+      return distance(sample, *law);
+    };
+    return estimate(collisions.size(), statistic, input,
+                    fmt::format("{} {} {}", shape.shape, group.label, name));
+  };
+  return {
+      shape.shape,
+      group.label,
+      static_cast<std::int64_t>(collisions.size()),
+      static_cast<std::int64_t>(volumes_above(group.cells, 0).size()),
+      shape.cut,
+      static_cast<std::int64_t>(volumes_above(group.cells, shape.cut).size()),
+      estimated("mean", [](const auto&, const Mott& law) { return law.mean_volume; }),
+      estimated("ks",
+                [](const auto& sample, const Mott& law) {
+                  return kolmogorov_smirnov(sample, [&](double v) { return law.distribution(v); });
+                }),
+      estimated("w", [](const auto& sample, const Mott& law) { return wasserstein(sample, law); }),
+      estimated("printed", [](const auto& sample, const Mott& law) {
+        const MottAsPrinted printed{.mean_volume = law.mean_volume, .cut = law.cut};
+        return kolmogorov_smirnov(sample, [&](double v) { return printed.distribution(v); });
+      })};
 }
 
 Table mott_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& input) {
@@ -53,35 +76,14 @@ Table mott_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& inp
                           {"KS to mott"},
                           {"W to mott", kVolumeUnit},
                           {"KS to mott-as-printed"}}};
+  std::vector<std::pair<const ShapeVolumes*, const CellGroup*>> places;
   for (const ShapeVolumes& shape : shapes) {
-    for (const CellGroup& group : shape.methods) {
-      const std::vector<double> all = volumes_above(group.cells, 0);
-      const std::vector<double> above = volumes_above(group.cells, shape.cut);
-      const auto mean = [&](std::span<const CellRef> cells) -> std::optional<double> {
-        const auto law = Mott::fit(volumes_above(cells, shape.cut), shape.cut);
-        return law ? std::optional(law->mean_volume) : std::nullopt;
-      };
-      const auto to_law = [&](std::string_view name, const Distance& distance) {
-        return distance_to_law(group, shape.cut, input, name, distance);
-      };
-      table.rows.push_back(
-          {shape.shape, group.label, static_cast<std::int64_t>(by_collision(group.cells).size()),
-           static_cast<std::int64_t>(all.size()), shape.cut,
-           static_cast<std::int64_t>(above.size()),
-           estimate(group.cells, mean, input, fmt::format("{} {} mean", shape.shape, group.label)),
-           to_law("ks",
-                  [](const auto& volumes, const Mott& law) {
-                    return kolmogorov_smirnov(volumes,
-                                              [&](double v) { return law.distribution(v); });
-                  }),
-           to_law("w",
-                  [](const auto& volumes, const Mott& law) { return wasserstein(volumes, law); }),
-           to_law("printed", [](const auto& volumes, const Mott& law) {
-             const MottAsPrinted printed{.mean_volume = law.mean_volume, .cut = law.cut};
-             return kolmogorov_smirnov(volumes, [&](double v) { return printed.distribution(v); });
-           })});
-    }
+    for (const CellGroup& group : shape.methods) places.emplace_back(&shape, &group);
   }
+  table.rows.resize(places.size());
+  parallel_for(places.size(), hardware_threads(), [&](std::size_t i) {
+    table.rows[i] = mott_row(*places[i].first, *places[i].second, input);
+  });
   return table;
 }
 
@@ -93,20 +95,17 @@ TableCell distance_between(const CellGroup& a, const CellGroup& b, double cut,
                            const Samples& distance) {
   std::vector<CellRef> both = a.cells;
   both.insert(both.end(), b.cells.begin(), b.cells.end());
-  return estimate(
-      both,
-      [&](std::span<const CellRef> cells) -> std::optional<double> {
-        std::vector<CellRef> of_a;
-        std::vector<CellRef> of_b;
-        for (const CellSummary& cell : cells) {
-          (cell.label == a.label ? of_a : of_b).emplace_back(cell);
-        }
-        const std::vector<double> x = volumes_above(of_a, cut);
-        const std::vector<double> y = volumes_above(of_b, cut);
-        if (x.empty() || y.empty()) return std::nullopt;
-        return distance(x, y);
-      },
-      input, fmt::format("{} {} {} {}", a.shape, a.label, b.label, name));
+  const std::vector<std::vector<CellRef>> collisions = by_collision(both);
+  const CollisionVolumes of_a(collisions, a.label, cut);
+  const CollisionVolumes of_b(collisions, b.label, cut);
+  const auto statistic = [&](std::span<const std::size_t> chosen) -> std::optional<double> {
+    const std::vector<double> x = of_a.of(chosen);
+    const std::vector<double> y = of_b.of(chosen);
+    if (x.empty() || y.empty()) return std::nullopt;
+    return distance(x, y);
+  };
+  return estimate(collisions.size(), statistic, input,
+                  fmt::format("{} {} {} {}", a.shape, a.label, b.label, name));
 }
 
 // The distance between every other collision of a method and the rest: what chance alone makes.

@@ -62,10 +62,10 @@ TEST(Registry, every_metric_and_value_has_its_place_in_the_documentation) {
                                              .total_seconds = 1,
                                              .peak_memory = 1});
       for (const MetricValue& v : m.values) {
-        EXPECT_NE(text.str().find('`' + v.name + '`'), std::string::npos) << v.name;
+        EXPECT_NE(text.str().find("`" + v.name + "`"), std::string::npos) << v.name;
       }
       for (const MetricSeries& s : m.series) {
-        EXPECT_NE(text.str().find('`' + s.name + '`'), std::string::npos) << s.name;
+        EXPECT_NE(text.str().find("`" + s.name + "`"), std::string::npos) << s.name;
       }
     }
   }
