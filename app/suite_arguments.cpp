@@ -38,6 +38,10 @@ void add_suite_options(CLI::App& command, SuiteArguments& a) {
           "Cells measured at a time, each in a process of its own; 1 for timings that count")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command.add_option_function<std::string>(
+      "--device",
+      [&a](const std::string& device) { a.settings.push_back("device=" + device); },
+      "cpu or cuda, for methods that can compute on one; the same as --set device=cuda");
   command
       .add_option("--set", a.settings,
                   "Change a value of the suite: seed=7, repeats=3, method.cvd.sites=40, "

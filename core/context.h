@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@
 
 namespace fracbench {
 
+/// The device that is always there.
+inline constexpr std::string_view kProcessor = "cpu";
+
 /// What a method or scene is handed for its work. Nothing in it outlives the call.
 struct Context {
   Random& random;      ///< the only source of chance
@@ -21,7 +25,7 @@ struct Context {
   Progress& progress;  ///< told how far long work has come
   std::stop_token stop = {};
   int threads = 1;
-  std::string device = "cpu";
+  std::string device = std::string(kProcessor);  ///< or "cuda": for methods that can use one
   /// What a break should be remembered with beside its pieces, a line each; part of the record, so
   /// the same lines for the same seed. Null: nobody listens.
   std::vector<std::string>* notes = nullptr;

@@ -70,8 +70,8 @@ OptionValue checked(OptionValue value, const OptionSpec& spec, std::string_view 
   if (const auto* text = std::get_if<std::string>(&value);
       text && !spec.choices.empty() &&
       std::ranges::find(spec.choices, *text) == spec.choices.end()) {
-    throw InputError(fmt::format("{}: option '{}' is '{}'{}", where, spec.name, *text,
-                                 did_you_mean(*text, spec.choices)));
+    throw InputError(fmt::format("{}: option '{}' is '{}'; known: {}", where, spec.name, *text,
+                                 fmt::join(spec.choices, ", ")));
   }
   return value;
 }

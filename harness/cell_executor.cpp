@@ -99,6 +99,7 @@ SceneResult CellExecutor::run_scene(const Cell& cell, const Prepared& prepared, 
                   .progress = progress,
                   .stop = stop,
                   .threads = plan_.suite.threads_per_cell,
+                  .device = plan_.suite.device,
                   .notes = outcome ? &outcome->notes : nullptr,
                   .findings = &findings};
   SceneResult result =
@@ -149,7 +150,8 @@ Record CellExecutor::execute(const Cell& cell, Progress& progress, const std::st
                       .timer = timer,
                       .progress = progress,
                       .stop = stop,
-                      .threads = record.identity.threads};
+                      .threads = record.identity.threads,
+                      .device = plan_.suite.device};
       prepared = cache_.get(cell, context);
     }
     record.cost.prepare_seconds = prepared.seconds;

@@ -134,6 +134,7 @@ std::string cell_key(const KeyParts& parts, const Cell& cell) {
   digest.add(std::string_view(parts.method.info.source_digest));
   if (!parts.method.files_digest.empty()) digest.add(parts.method.files_digest);
   digest.add(static_cast<std::uint64_t>(parts.suite.threads_per_cell));
+  if (parts.suite.device != kProcessor) digest.add(std::string_view(parts.suite.device));
   digest.add(cell.seed);
   digest.add(cell.prepare_seed);
   if (parts.method.info.learns) digest.add(std::string_view(parts.shape.learning_digest));

@@ -86,7 +86,8 @@ PrepareResult prepare_methods(const Plan& plan, const PrepareOptions& options) {
                     .timer = timer,
                     .progress = progress,
                     .stop = options.stop,
-                    .threads = plan.suite.threads_per_cell};
+                    .threads = plan.suite.threads_per_cell,
+                    .device = plan.suite.device};
     try {
       const Prepared prepared = BreakableCache(plan).get(cell, context);
       row.seconds = prepared.seconds;

@@ -155,7 +155,7 @@ std::string digest_of_files(const Method& method, const Options& options) {
   return digest.hex();
 }
 
-std::string prepared_key(const PreparedRequest& request, std::uint64_t seed, int threads) {
+std::string prepared_key(const PreparedRequest& request, const Context& context) {
   const MethodInfo info = request.method.info();
   Digest digest;
   digest.add(kStoreVersion);
@@ -170,8 +170,9 @@ std::string prepared_key(const PreparedRequest& request, std::uint64_t seed, int
   }
   digest.add(request.learning_digest);
   digest.add(digest_of_files(request.method, request.options));
-  digest.add(info.random ? seed : 0);
-  digest.add(static_cast<std::uint64_t>(threads));
+  digest.add(info.random ? context.random.seed() : 0);
+  digest.add(static_cast<std::uint64_t>(context.threads));
+  if (context.device != kProcessor) digest.add(context.device);
   return digest.hex();
 }
 
@@ -192,7 +193,7 @@ std::optional<PreparedStore> PreparedStore::of_user() {
 fs::path PreparedStore::entry(const std::string& key) const { return folder_ / "prepared" / key; }
 
 PreparedBody PreparedStore::get(const PreparedRequest& request, Context& context) const {
-  const fs::path path = entry(prepared_key(request, context.random.seed(), context.threads));
+  const fs::path path = entry(prepared_key(request, context));
   const fs::path work = path.string() + ".work";
   try {
     fs::create_directories(path.parent_path());

@@ -30,8 +30,8 @@ struct PreparedBody {
 };
 
 /// SHA-256 of everything that determines a body: method, sources, options, mesh, material, learning
-/// data, threads, and the seed where the method is random.
-std::string prepared_key(const PreparedRequest& request, std::uint64_t seed, int threads);
+/// data, and of the context threads, device, and the seed where the method is random.
+std::string prepared_key(const PreparedRequest& request, const Context& context);
 
 /// SHA-256 of the files that the options name (Method::files); empty where they name none. Throws
 /// InputError where one cannot be read.

@@ -81,6 +81,8 @@ nlohmann::ordered_json to_json(const Suite& suite) {
             {"seed", suite.seed},
             {"repeats", suite.repeats},
             {"threads_per_cell", suite.threads_per_cell}};
+  // The common case is left out, as it was before there was another one.
+  if (suite.device != kProcessor) json["device"] = suite.device;
   Json& shapes = json["shapes"] = Json::object();
   for (const SuiteShape& shape : suite.shapes) {
     shapes[shape.label] = {{"name", shape.request.name},
@@ -141,6 +143,11 @@ const OptionsSchema& suite_schema() {
        .summary = "that one cell may use",
        .minimum = 1,
        .maximum = 1024},
+      {.name = "device",
+       .fallback = std::string(kProcessor),
+       .unit = "",
+       .summary = "that methods compute on, where they can use one: deepfracture for its training",
+       .choices = {std::string(kProcessor), "cuda"}},
       {.name = "warm_up",
        .fallback = std::int64_t{0},
        .unit = "",

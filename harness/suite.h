@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/context.h"
 #include "core/options.h"
 #include "scenarios/shapes.h"
 
@@ -81,6 +82,8 @@ struct Suite {
   std::uint64_t seed = 1;
   int repeats = 1;           ///< with the same impacts and other random numbers for the method
   int threads_per_cell = 1;  ///< part of what determines a result, see docs/records.md
+  /// On which methods that can use one compute: "cpu" or "cuda". Part of what determines a result.
+  std::string device = std::string(kProcessor);
   int warm_up = 0;           ///< runs that are thrown away after a body was prepared
   /// Where files that the suite names are looked for first. No part of the suite's identity, so
   /// that it is the same suite wherever it lies and from wherever it is run.

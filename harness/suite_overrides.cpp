@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ constexpr std::string_view kWhere = "--set";
 
 const std::vector<std::string>& suite_keys() {
   static const std::vector<std::string> keys = {
-      "seed",      "repeats",   "threads_per_cell",  "warm_up",
-      "timeout_s", "memory_mb", "prepare_timeout_s", "method",
-      "scenario",  "shape",     "learning"};
+      "seed",      "repeats",   "threads_per_cell",  "warm_up", "device",
+      "timeout_s", "memory_mb", "prepare_timeout_s", "method",  "scenario",
+      "shape",     "learning"};
   return keys;
 }
 
@@ -58,8 +59,15 @@ void change_entries(Entries& entries, std::string_view kind, std::string_view la
   }
 }
 
+bool is_top_value(std::string_view key) {
+  constexpr std::array kKeys = {"seed", "repeats", "threads_per_cell", "warm_up", "device"};
+  return std::ranges::find(kKeys, key) != kKeys.end();
+}
+
 void set_top_value(Suite& suite, std::string_view key, std::string_view text) {
   const OptionValue value = parse_option(suite_schema(), key, text, kWhere);
+  if (key == "device") suite.device = std::get<std::string>(value);
+  if (!std::holds_alternative<std::int64_t>(value)) return;
   const std::int64_t number = std::get<std::int64_t>(value);
   if (key == "seed") suite.seed = static_cast<std::uint64_t>(number);
   if (key == "repeats") suite.repeats = static_cast<int>(number);
@@ -114,7 +122,7 @@ Suite with_override(Suite suite, std::string_view assignment, const Catalog& cat
   }
   const std::string_view key = assignment.substr(0, equals);
   const std::string_view text = assignment.substr(equals + 1);
-  if (key == "seed" || key == "repeats" || key == "threads_per_cell" || key == "warm_up") {
+  if (is_top_value(key)) {
     set_top_value(suite, key, text);
     return suite;
   }

@@ -8,7 +8,7 @@
 namespace fracbench {
 
 /// Changes one value of a suite, as --set does. `assignment` is "key=value" with one of the keys
-///   seed, repeats, threads_per_cell, warm_up
+///   seed, repeats, threads_per_cell, warm_up, device
 ///   timeout_s, prepare_timeout_s, memory_mb, for all methods or as method.LABEL.timeout_s
 ///   method.LABEL.OPTION, scenario.LABEL.OPTION, shape.LABEL.OPTION
 ///   learning.KEY, learning.options.OPTION (of its method), learning.scenario.OPTION

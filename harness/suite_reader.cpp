@@ -304,6 +304,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   suite.seed = static_cast<std::uint64_t>(values.integer("seed"));
   suite.repeats = static_cast<int>(values.integer("repeats"));
   suite.threads_per_cell = static_cast<int>(values.integer("threads_per_cell"));
+  suite.device = values.text("device");
   suite.warm_up = static_cast<int>(values.integer("warm_up"));
   suite.shapes = read_shapes(top);
   suite.scenarios = read_scenarios(top, catalog);

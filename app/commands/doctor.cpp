@@ -53,7 +53,7 @@ Json disk() {
 
 Json device() {
   return finding("device", true,
-                 "cpu; fracbench-train takes --device cuda where its libtorch has CUDA");
+                 "cpu; run, prepare and fracbench-train take --device cuda where libtorch has CUDA");
 }
 
 Json trainer() {

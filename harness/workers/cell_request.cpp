@@ -37,6 +37,7 @@ std::string encode_job(const Plan& plan, const Cell& cell, std::uint64_t memory)
   tree.put("memory", memory);
   tree.put("suite/name", std::string_view(plan.suite.name));
   tree.put("suite/threads_per_cell", std::int64_t{plan.suite.threads_per_cell});
+  tree.put("suite/device", std::string_view(plan.suite.device));
   tree.put("suite/warm_up", std::int64_t{plan.suite.warm_up});
   tree.put("shape/label", std::string_view(shape.label));
   tree.put("shape/digest", std::string_view(shape.digest));
@@ -57,6 +58,7 @@ WorkerJob decode_job(std::string_view bytes, const Catalog& catalog) {
   job.memory = tree.word("memory");
   job.plan.suite.name = tree.text("suite/name");
   job.plan.suite.threads_per_cell = static_cast<int>(tree.integer("suite/threads_per_cell"));
+  job.plan.suite.device = tree.text("suite/device");
   job.plan.suite.warm_up = static_cast<int>(tree.integer("suite/warm_up"));
   job.plan.learning_folder = tree.text("learning_folder");
   job.plan.shapes.push_back({.label = tree.text("shape/label"),

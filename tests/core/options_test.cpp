@@ -69,7 +69,7 @@ TEST(Options, NamesRangeAndUnitForAValueOutOfRange) {
 TEST(Options, RejectsWrongTypesAndUnknownChoices) {
   EXPECT_THAT(message_of({{"sites", 2.5}}), HasSubstr("whole number"));
   EXPECT_THAT(message_of({{"merge", std::string("yes")}}), HasSubstr("true or false"));
-  EXPECT_THAT(message_of({{"mode", std::string("fsat")}}), HasSubstr("did you mean 'fast'"));
+  EXPECT_THAT(message_of({{"mode", std::string("fsat")}}), HasSubstr("'fsat'; known: fast, exact"));
 }
 
 TEST(Options, AreReadFromTextByTheTypeOfTheirDefault) {

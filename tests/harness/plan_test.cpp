@@ -105,6 +105,8 @@ TEST_F(PlanTest, KeysChangeWithEverythingThatDeterminesTheResult) {
   const auto base = keys(make_plan(suite, catalog));
   EXPECT_EQ(shared(base, keys(plan_with("seed=6"))), 0);
   EXPECT_EQ(shared(base, keys(plan_with("threads_per_cell=2"))), 0);
+  EXPECT_EQ(shared(base, keys(plan_with("device=cuda"))), 0);
+  EXPECT_EQ(shared(base, keys(plan_with("device=cpu"))), base.size());
   EXPECT_EQ(shared(base, keys(plan_with("scenario.shove.speed=41"))), 0);
   EXPECT_EQ(shared(base, keys(plan_with("shape.box.longest_side=1"))), base.size() / 2);
   EXPECT_EQ(shared(base, keys(plan_with("method.halves.margin=0.05"))), base.size() / 2);

@@ -132,13 +132,14 @@ TEST_F(SuiteTest, FindsFilesInTheUsersFolderOfShapes) {
 TEST_F(SuiteTest, OverridesReplaceSingleValues) {
   Suite suite = toy_suite(catalog);
   for (const char* assignment :
-       {"seed=7", "repeats=3", "threads_per_cell=2", "method.halves-wide.margin=0.15",
+       {"seed=7", "repeats=3", "threads_per_cell=2", "device=cuda", "method.halves-wide.margin=0.15",
         "scenario.shove.count=2", "shape.*.longest_side=1", "shape.slab.resolution=4"}) {
     suite = with_override(suite, assignment, catalog);
   }
   EXPECT_EQ(suite.seed, 7);
   EXPECT_EQ(suite.repeats, 3);
   EXPECT_EQ(suite.threads_per_cell, 2);
+  EXPECT_EQ(suite.device, "cuda");
   EXPECT_EQ(suite.methods[0].options.number("margin"), 0.1);
   EXPECT_EQ(suite.methods[1].options.number("margin"), 0.15);
   EXPECT_EQ(suite.scenarios[0].options.integer("count"), 2);
@@ -158,6 +159,7 @@ TEST_F(SuiteTest, OverridesThatCannotBeMeantAreRefusedWithTheWayOut) {
   EXPECT_THAT(set_message("method.halves=9"), HasSubstr("method.LABEL.OPTION"));
   EXPECT_THAT(set_message("shape.box.resolution=-1"), HasSubstr("0 to 4096"));
   EXPECT_THAT(set_message("seed=-1"), HasSubstr("at least 0"));
+  EXPECT_THAT(set_message("device=gpu"), HasSubstr("known: cpu, cuda"));
 }
 
 TEST_F(SuiteTest, LimitsStandAtTheTopForAllMethodsOrWithOne) {
@@ -203,6 +205,8 @@ TEST_F(SuiteTest, ItsJsonHoldsEveryValueThatDeterminesResults) {
   EXPECT_EQ(json["scenarios"]["shove"]["options"]["count"], 3);
   EXPECT_EQ(json["shapes"]["slab"]["longest_side"], 1.5);
   EXPECT_FALSE(json.contains("summary"));
+  EXPECT_FALSE(json.contains("device"));
+  EXPECT_EQ(to_json(with_override(toy_suite(catalog), "device=cuda", catalog))["device"], "cuda");
 }
 
 }  // namespace

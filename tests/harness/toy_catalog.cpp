@@ -39,6 +39,7 @@ class HalvesBody : public Breakable {
     if (trouble == "failure") throw MethodFailure("the plane misses the box");
     if (trouble == "memory") throw std::bad_alloc();
     if (trouble == "error") throw std::logic_error("a mistake in the method");
+    if (context.device != kProcessor) context.note("computed on " + context.device);
     wait(context);
     const Vec3 low = target_.mesh.vertices.front();
     const Vec3 high = target_.mesh.vertices.back();

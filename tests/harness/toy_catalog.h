@@ -12,8 +12,10 @@ namespace fracbench {
 /// hit by an impact that is made up.
 ///
 /// Method "halves": options `margin` (m), `pieces`, `trouble` (none, failure, memory, error, leak)
-/// and `wait` (s for each fracture). Family "shove": options `count`, `speed` (below 10 m/s nothing
-/// breaks). Method "hostile": see hostile_method.h. Shapes "box" and "slab". Metrics "size" and "clock", the latter of the machine.
+/// and `wait` (s for each fracture); notes the device where it is not the processor. Family
+/// "shove": options `count`, `speed` (below 10 m/s nothing breaks). Method "hostile": see
+/// hostile_method.h. Shapes "box" and "slab". Metrics "size" and "clock", the latter of the
+/// machine.
 class ToyWorld {
  public:
   ToyWorld();

@@ -111,6 +111,20 @@ class WorkerPoolTest : public testing::Test {
   std::vector<std::string> messages;
 };
 
+TEST_F(WorkerPoolTest, HandsTheDeviceToTheMethod) {
+  const Plan plan = plan_with({"device=cuda"});
+  run(plan);
+  const RecordStore store(folder);
+  std::size_t told = 0;
+  for (const auto& file : list_records(folder)) {
+    const Record record = store.read(file.stem().string());
+    if (record.identity.method != "halves") continue;
+    EXPECT_THAT(record.outcome.notes, testing::Contains("computed on cuda"));
+    ++told;
+  }
+  EXPECT_GT(told, 0);
+}
+
 TEST_F(WorkerPoolTest, GivesTheSameBytesAsThisProcessForAnyNumberOfJobs) {
   const Plan plan = make_plan(toy_suite(catalog), catalog);
   ASSERT_TRUE(run_suite(plan, catalog, {.folder = base / "here"}).complete());
@@ -245,7 +259,7 @@ TEST_F(WorkerPoolTest, AWorkerServesAllCellsOfItsShapeAndMethod) {
   run(plan);
   std::map<std::string, std::set<double>> times;  // of preparing, by shape and method
   for (const CellSummary& cell : read_summaries(folder)) {
-    times[cell.shape + cell.label].insert(cell.prepare_seconds);
+    times[cell.shape + cell.label.text()].insert(cell.prepare_seconds);
   }
   EXPECT_EQ(times.size(), 4);
   for (const auto& [kind, each] : times) EXPECT_EQ(each.size(), 1) << kind;
