@@ -41,8 +41,17 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
       .method = *method.method, .options = method.options, .target = *prepared.target};
   if (method.info.learns) {
     request.learning_digest = shape.learning_digest;
-    request.learning = [&] {
-      return load_learning_data(plan_.learning_folder, shape.label, shape.learning_digest);
+    std::vector<LearnedWith> others = method.learn_with;
+    std::erase_if(others, [&](const LearnedWith& other) { return other.label == shape.label; });
+    for (const LearnedWith& other : others) request.further_digests.push_back(other.digest);
+    request.learning = [&plan = plan_, &shape, others] {
+      LearningData data =
+          load_learning_data(plan.learning_folder, shape.label, shape.learning_digest);
+      for (const LearnedWith& other : others) {
+        data.further.push_back(
+            load_further_learning(plan.learning_folder, other.label, other.digest));
+      }
+      return data;
     };
   }
   const auto start = std::chrono::steady_clock::now();

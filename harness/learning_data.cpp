@@ -131,12 +131,20 @@ bool has_learning_data(const Plan& plan, const std::filesystem::path& folder) {
   } catch (const InputError&) {
     return false;
   }
-  return std::ranges::all_of(plan.shapes, [&](const PlannedShape& shape) {
-    if (shape.learning_digest.empty()) return true;
-    const auto found = std::ranges::find(index.shapes, shape.label, &LearningShape::label);
-    return found != index.shapes.end() && found->digest == shape.learning_digest &&
+  const auto has = [&](const std::string& label, const std::string& digest) {
+    if (digest.empty()) return true;
+    const auto found = std::ranges::find(index.shapes, label, &LearningShape::label);
+    return found != index.shapes.end() && found->digest == digest &&
            shortage(*found, index.split).empty();
-  });
+  };
+  return std::ranges::all_of(
+             plan.shapes,
+             [&](const PlannedShape& shape) { return has(shape.label, shape.learning_digest); }) &&
+         std::ranges::all_of(plan.methods, [&](const PlannedMethod& method) {
+           return std::ranges::all_of(method.learn_with, [&](const LearnedWith& other) {
+             return has(other.label, other.digest);
+           });
+         });
 }
 
 ExitCode exit_code_of(const LearningResult& result) {

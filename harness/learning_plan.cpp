@@ -45,9 +45,15 @@ std::vector<std::string> learning_shapes(const Suite& suite,
     return std::ranges::find(list, name) != list.end();
   };
   const std::vector<std::string>& covered = suite.learning->shapes;
+  const auto learned_with = [&](const std::string& label) {
+    return std::ranges::any_of(suite.methods, [&](const SuiteMethod& method) {
+      return names(method.learn_with, label);
+    });
+  };
   for (const SuiteShape& shape : suite.shapes) {
     if (!covered.empty() && !names(covered, shape.label)) continue;
-    if (wanted.empty() || names(wanted, shape.label) || names(wanted, shape.request.name)) {
+    if (wanted.empty() || names(wanted, shape.label) || names(wanted, shape.request.name) ||
+        learned_with(shape.label)) {
       labels.push_back(shape.label);
     }
   }

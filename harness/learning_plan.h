@@ -17,7 +17,8 @@ std::filesystem::path learning_folder_in(const std::filesystem::path& folder);
 Suite learning_suite(const Suite& suite);
 
 /// The labels of the shapes that the suite makes learning data for, among those named by label or
-/// name; none named: all. Empty where nothing is to be made.
+/// name and those that a method learns with them; none named: all. Empty where nothing is to be
+/// made.
 std::vector<std::string> learning_shapes(const Suite& suite,
                                          const std::vector<std::string>& wanted = {});
 

@@ -84,8 +84,8 @@ LearningSet load_learning_set(const std::filesystem::path& folder) {
   return set;
 }
 
-LearningData load_learning_data(const std::filesystem::path& folder, std::string_view label,
-                                std::string_view digest) {
+FurtherLearning load_further_learning(const std::filesystem::path& folder, std::string_view label,
+                                      std::string_view digest) {
   const LearningIndex index = read_learning_index(folder);
   const LearningShape& shape = index.shape(label, folder.string());
   if (shape.digest != digest) {
@@ -95,11 +95,19 @@ LearningData load_learning_data(const std::filesystem::path& folder, std::string
                     folder.string(), label));
   }
   try {
-    return {.examples = load_examples(folder, shape, LearningRole::train),
+    return {.shape = shape.label,
+            .mesh = load_mesh(folder, shape),
+            .examples = load_examples(folder, shape, LearningRole::train),
             .max_impulse = shape.max_impulse};
   } catch (const DataError& error) {
     throw InputError(error.what());
   }
+}
+
+LearningData load_learning_data(const std::filesystem::path& folder, std::string_view label,
+                                std::string_view digest) {
+  FurtherLearning all = load_further_learning(folder, label, digest);
+  return {.examples = std::move(all.examples), .max_impulse = all.max_impulse};
 }
 
 }  // namespace fracbench

@@ -45,4 +45,8 @@ LearningSet load_learning_set(const std::filesystem::path& folder);
 LearningData load_learning_data(const std::filesystem::path& folder, std::string_view label,
                                 std::string_view digest);
 
+/// The same of a shape that is learned besides the target.
+FurtherLearning load_further_learning(const std::filesystem::path& folder, std::string_view label,
+                                      std::string_view digest);
+
 }  // namespace fracbench

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/digest.h"
 #include "core/error.h"
@@ -138,6 +140,9 @@ std::string cell_key(const KeyParts& parts, const Cell& cell) {
   digest.add(cell.seed);
   digest.add(cell.prepare_seed);
   if (parts.method.info.learns) digest.add(std::string_view(parts.shape.learning_digest));
+  for (const LearnedWith& other : parts.method.learn_with) {
+    digest.add(std::string_view(other.digest));
+  }
   return digest.hex();
 }
 
@@ -146,6 +151,13 @@ std::string cell_key(const KeyParts& parts, const Cell& cell) {
 bool in_shard(std::size_t g, const Shard& shard) {
   const auto count = static_cast<std::size_t>(shard.count);
   return (g + g / count) % count == static_cast<std::size_t>(shard.index - 1);
+}
+
+/// What a method is prepared for: a shape, or the shapes that it learns together.
+std::string prepared_for(const PlannedShape& shape, const PlannedMethod& method) {
+  std::set<std::string> labels{shape.label};
+  for (const LearnedWith& other : method.learn_with) labels.insert(other.label);
+  return fmt::format("{}", fmt::join(labels, ","));
 }
 
 std::vector<Cell> make_cells(const Plan& plan, const Shard& shard) {
@@ -174,7 +186,8 @@ std::vector<Cell> make_cells(const Plan& plan, const Shard& shard) {
           Cell cell{.shape = s, .scenario = k, .method = m, .repeat = repeat, .key = {}};
           cell.seed = derive_seed(plan.suite.seed, {"cell", shape.label, shape.scenarios[k].name,
                                                     method.label, std::to_string(repeat)});
-          cell.prepare_seed = derive_seed(plan.suite.seed, {"prepare", shape.label, method.label});
+          cell.prepare_seed =
+              derive_seed(plan.suite.seed, {"prepare", prepared_for(shape, method), method.label});
           cell.key =
               cell_key({plan.suite, shape, scenario_json[s][k], method, options_json[m]}, cell);
           cells.push_back(std::move(cell));
@@ -197,9 +210,13 @@ void add_learning_digests(Plan& plan, const Catalog& catalog) {
                       plan.suite.name, method.label));
     }
     const std::vector<std::string>& covered = plan.suite.learning->shapes;
+    std::vector<std::string> wanted;
     for (const PlannedShape& shape : plan.shapes) {
-      const std::string& label = shape.label;
-      if (!method.breaks(label) || std::ranges::find(labels, label) != labels.end()) continue;
+      if (method.breaks(shape.label)) wanted.push_back(shape.label);
+    }
+    for (const LearnedWith& other : method.learn_with) wanted.push_back(other.label);
+    for (const std::string& label : wanted) {
+      if (std::ranges::find(labels, label) != labels.end()) continue;
       if (!covered.empty() && std::ranges::find(covered, label) == covered.end()) {
         throw InputError(fmt::format(
             "{}: method '{}' learns, and there is no learning data for shape '{}'; add it to the "
@@ -211,10 +228,17 @@ void add_learning_digests(Plan& plan, const Catalog& catalog) {
   }
   if (labels.empty()) return;
   const Plan learning = make_learning_plan(plan.suite, catalog, labels);
+  std::map<std::string, std::string> digests;
   for (std::size_t i = 0; i < learning.shapes.size(); ++i) {
-    const auto planned =
-        std::ranges::find(plan.shapes, learning.shapes[i].label, &PlannedShape::label);
-    planned->learning_digest = learning_digest(learning, i, plan.suite.learning->split);
+    digests[learning.shapes[i].label] = learning_digest(learning, i, plan.suite.learning->split);
+  }
+  for (PlannedShape& shape : plan.shapes) {
+    if (const auto found = digests.find(shape.label); found != digests.end()) {
+      shape.learning_digest = found->second;
+    }
+  }
+  for (PlannedMethod& method : plan.methods) {
+    for (LearnedWith& other : method.learn_with) other.digest = digests.at(other.label);
   }
 }
 
@@ -253,6 +277,11 @@ Plan make_plan(const Suite& suite, const Catalog& catalog, const PlanOptions& op
                             .files_digest = digest_of_files(method, entry.options),
                             .limits = entry.limits,
                             .shapes = entry.shapes});
+    if (!plan.methods.back().info.learns) continue;
+    const std::set<std::string> others(entry.learn_with.begin(), entry.learn_with.end());
+    for (const std::string& label : others) {
+      plan.methods.back().learn_with.push_back({.label = label, .digest = {}});
+    }
   }
   const std::vector<SuiteShape> shapes =
       kept(suite.shapes, options.shapes, "--shapes", [](const auto& s) { return s.request.name; });

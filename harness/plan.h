@@ -41,6 +41,12 @@ struct PlannedShape {
   std::string learning_digest = {};  ///< of its learning data; empty where nothing learns from it
 };
 
+/// A shape whose fractures a method learns besides those of its target.
+struct LearnedWith {
+  std::string label;
+  std::string digest;  ///< of its learning data
+};
+
 struct PlannedMethod {
   std::string label;
   const Method* method = nullptr;
@@ -48,7 +54,8 @@ struct PlannedMethod {
   Options options;
   std::string files_digest = {};  ///< of the files that the options name; empty where none
   CellLimits limits = {};
-  std::vector<std::string> shapes = {};  ///< labels of those that it breaks; empty: all
+  std::vector<std::string> shapes = {};      ///< labels of those that it breaks; empty: all
+  std::vector<LearnedWith> learn_with = {};  ///< by label
 
   bool breaks(std::string_view shape) const;
 };
@@ -60,7 +67,7 @@ struct Cell {
   std::size_t method = 0;    ///< index into Plan::methods
   int repeat = 0;
   std::uint64_t seed = 0;          ///< of the method's random numbers in this cell
-  std::uint64_t prepare_seed = 0;  ///< the same for all cells of this shape and method
+  std::uint64_t prepare_seed = 0;  ///< the same for all cells that share a prepared body
   std::string key;                 ///< SHA-256 of everything that determines the result
 };
 

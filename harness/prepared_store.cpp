@@ -162,13 +162,16 @@ std::string prepared_key(const PreparedRequest& request, const Context& context)
   digest.add(info.name);
   digest.add(info.source_digest);
   digest.add(request.options.to_json().dump());
-  digest.add(request.target.mesh);
+  if (request.further_digests.empty()) digest.add(request.target.mesh);
   const Material& m = request.target.material;
   for (const double value : {m.young_modulus, m.poisson_ratio, m.density, m.strength, m.toughness,
                              m.compressive_factor, m.friction, m.restitution}) {
     digest.add(value);
   }
-  digest.add(request.learning_digest);
+  std::vector<std::string> learned = request.further_digests;
+  learned.push_back(request.learning_digest);
+  std::ranges::sort(learned);
+  for (const std::string& one : learned) digest.add(one);
   digest.add(digest_of_files(request.method, request.options));
   digest.add(info.random ? context.random.seed() : 0);
   digest.add(static_cast<std::uint64_t>(context.threads));

@@ -21,6 +21,8 @@ struct PreparedRequest {
   const Options& options;
   const Target& target;
   std::string learning_digest = {};  ///< of what it learns from; empty where it does not learn
+  /// Of the other shapes that it learns: the body is then one for all of them.
+  std::vector<std::string> further_digests = {};
   std::function<LearningData()> learning = {};  ///< called only where the body has to be made
 };
 
@@ -30,7 +32,8 @@ struct PreparedBody {
 };
 
 /// SHA-256 of everything that determines a body: method, sources, options, mesh, material, learning
-/// data, and of the context threads, device, and the seed where the method is random.
+/// data, and of the context threads, device, and the seed where the method is random. Where several
+/// shapes are learned, the same for each of them.
 std::string prepared_key(const PreparedRequest& request, const Context& context);
 
 /// SHA-256 of the files that the options name (Method::files); empty where they name none. Throws

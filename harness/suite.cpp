@@ -99,6 +99,7 @@ nlohmann::ordered_json to_json(const Suite& suite) {
     Json& entry =
         methods[method.label] = {{"name", method.name}, {"options", method.options.to_json()}};
     if (!method.shapes.empty()) entry["shapes"] = method.shapes;
+    if (!method.learn_with.empty()) entry["learn_with"] = method.learn_with;
   }
   if (suite.learning) json["learning"] = learning_json(*suite.learning);
   return json;
@@ -255,7 +256,9 @@ void check_labels(const Suite& suite, std::string_view where) {
   check_entries(suite.scenarios, "scenario", where);
   check_entries(suite.methods, "method", where);
   for (const SuiteMethod& method : suite.methods) {
-    check_shapes(suite, method.shapes, fmt::format("{}: method '{}'", where, method.label));
+    const std::string what = fmt::format("{}: method '{}'", where, method.label);
+    check_shapes(suite, method.shapes, what);
+    check_shapes(suite, method.learn_with, what + ", learn_with");
   }
 }
 

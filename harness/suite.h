@@ -39,6 +39,8 @@ struct SuiteMethod {
   Options options;
   CellLimits limits = {};                ///< no part of the suite's identity: see docs/records.md
   std::vector<std::string> shapes = {};  ///< labels of those that it breaks; empty: all
+  /// Labels of shapes whose fractures it learns besides those of the target: one model for all.
+  std::vector<std::string> learn_with = {};
 
   bool breaks(std::string_view shape) const;
 };

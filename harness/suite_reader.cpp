@@ -197,9 +197,16 @@ std::vector<SuiteMethod> read_methods(const Entry& top, const Catalog& catalog) 
     methods.push_back(
         {.label = read_text(entry, "label").value_or(name),
          .name = name,
-         .options = read_options(entry, known.options(), and_limits({"name", "label", "shapes"})),
+         .options = read_options(entry, known.options(),
+                                 and_limits({"name", "label", "shapes", "learn_with"})),
          .limits = with_limits(limits, read_limits(entry), entry.where()),
-         .shapes = read_names(entry, "shapes")});
+         .shapes = read_names(entry, "shapes"),
+         .learn_with = read_names(entry, "learn_with")});
+    if (!methods.back().learn_with.empty() && !known.info().learns_several) {
+      throw InputError(
+          fmt::format("{}: it does not learn several shapes at once; remove learn_with",
+                      entry.where(*entry.table.get("learn_with"))));
+    }
   }
   return methods;
 }

@@ -17,14 +17,15 @@ namespace fracbench {
 
 /// What is known of a method before it runs: Table 1 of the paper comes from here.
 struct MethodInfo {
-  std::string name;     ///< as in suites and on the command line
-  std::string summary;  ///< one line
+  std::string name;                       ///< as in suites and on the command line
+  std::string summary;                    ///< one line
   std::vector<Publication> publications;  ///< where it is described; empty: nowhere
-  std::string shape_type;       ///< "Voronoi", "crack propagation", "cutting", ...
-  bool retains_surface = true;  ///< fragments carry the original surface unchanged
-  bool refracture = false;      ///< pieces may break again
-  bool random = false;          ///< another seed gives other pieces
-  bool learns = false;          ///< prepare() needs LearningData
+  std::string shape_type;                 ///< "Voronoi", "crack propagation", "cutting", ...
+  bool retains_surface = true;            ///< fragments carry the original surface unchanged
+  bool refracture = false;                ///< pieces may break again
+  bool random = false;                    ///< another seed gives other pieces
+  bool learns = false;                    ///< prepare() needs LearningData
+  bool learns_several = false;            ///< of several shapes at once: see LearningData::further
   /// Preparing a body takes no longer than reading what save() wrote: it is not kept on the disk.
   bool quick_to_prepare = false;
   double volume_tolerance = 1e-9;  ///< allowed |volume_ratio - 1|
@@ -42,12 +43,23 @@ struct LearningExample {
   std::vector<Impact> later_impacts = {};
 };
 
+/// What there is to learn of a shape that is not the target itself, of the same material.
+struct FurtherLearning {
+  std::string shape;  ///< its label
+  TriangleMesh mesh;
+  std::vector<LearningExample> examples;
+  double max_impulse = 0;  ///< as in LearningData
+};
+
 /// What a learning method is given; empty for the others.
 struct LearningData {
   std::vector<LearningExample> examples;  ///< to train with; the test set is kept from methods
   /// I_max: the largest magnitude among the impulses on the target in all collisions that were
   /// made, the unbroken ones included, N s.
   double max_impulse = 0;
+  /// Other shapes whose fractures are learned, too. What comes of it must be the same whichever of
+  /// the shapes it is made for: it is made once for all of them.
+  std::vector<FurtherLearning> further = {};
 };
 
 /// A fracture method. Stateless; adding one is a folder below methods/ and a line in registry.cpp.

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/array_file.h"
 #include "core/digest.h"
@@ -15,7 +16,7 @@ namespace fracbench::neural {
 
 namespace {
 
-constexpr ArrayFileKind kKind{.format = "fracbench data set", .version = 1, .packed = true};
+constexpr ArrayFileKind kKind{.format = "fracbench data set", .version = 2, .packed = true};
 
 std::string pattern_name(std::size_t k, std::string_view what) {
   return fmt::format("patterns/{:04}/{}", k, what);
@@ -35,23 +36,21 @@ DataSet data_set_of(ArrayFile& file) {
     if (found == file.texts.end()) throw InputError(fmt::format("it has no text '{}'", name));
     return found->second;
   };
-  DataSet data{.shape = text("shape"),
-               .shape_digest = text("shape_digest"),
-               .provenance = text("provenance"),
-               .features = 0,
-               .scaling = {},
-               .patterns = {}};
-  const std::vector<double>& s = file.reals["scaling"];
-  require(s.size() == 5 && std::ranges::all_of(s, [](double v) { return std::isfinite(v); }) &&
-              s[3] > 0 && s[4] > 0,
-          "scaling");
-  data.scaling = {.centre = {s[0], s[1], s[2]}, .half_side = s[3], .max_impulse = s[4]};
+  DataSet data{
+      .shapes = take_shapes(file), .provenance = text("provenance"), .features = 0, .patterns = {}};
   const std::vector<double>& unit = file.reals["field_unit"];
   require(unit.size() == 1 && std::isfinite(unit[0]) && unit[0] > 0, "field_unit");
   data.field_unit = unit[0];
   for (const std::string& name :
        nlohmann::json::parse(text("names")).get<std::vector<std::string>>()) {
     data.patterns.push_back({.name = name, .impulses = {}, .fields = {}});
+  }
+  const std::vector<std::int32_t>& owners = file.integers["pattern_shape"];
+  require(owners.size() == data.patterns.size(), "pattern_shape");
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    require(owners[k] >= 0 && static_cast<std::size_t>(owners[k]) < data.shapes.size(),
+            "pattern_shape");
+    data.patterns[k].shape = owners[k];
   }
   for (auto& [name, values] : file.floats) {
     const std::size_t slash = name.rfind('/');
@@ -90,15 +89,14 @@ DataSet data_set_of(ArrayFile& file) {
 
 void write_data_set(const std::filesystem::path& file, const DataSet& data) {
   ArrayFile arrays;
-  arrays.texts = {
-      {"shape", data.shape}, {"shape_digest", data.shape_digest}, {"provenance", data.provenance}};
-  const Vec3& c = data.scaling.centre;
-  arrays.reals["scaling"] = {c.x(), c.y(), c.z(), data.scaling.half_side, data.scaling.max_impulse};
+  put_shapes(arrays, data.shapes);
+  arrays.texts["provenance"] = data.provenance;
   arrays.reals["field_unit"] = {data.field_unit};
   auto names = nlohmann::json::array();
   for (std::size_t k = 0; k < data.patterns.size(); ++k) {
     const Pattern& pattern = data.patterns[k];
     names.push_back(pattern.name);
+    arrays.integers["pattern_shape"].push_back(pattern.shape);
     arrays.floats[pattern_name(k, "impulses")] = pattern.impulses;
     for (const auto& [r, field] : pattern.fields) {
       arrays.floats[pattern_name(k, std::to_string(r))] = field;
@@ -119,16 +117,58 @@ DataSet read_data_set(const std::filesystem::path& file) {
   }
 }
 
+DataSet joined(std::vector<DataSet> sets) {
+  if (sets.empty()) throw InputError("there is no data set to learn from");
+  DataSet all = std::move(sets.front());
+  if (sets.size() == 1) return all;
+  auto provenances = nlohmann::json::array({all.provenance});
+  for (DataSet& set : std::span(sets).subspan(1)) {
+    const std::string names = names_of(set.shapes);
+    const auto resolutions = [](const DataSet& data) {
+      std::vector<int> list;
+      if (data.patterns.empty()) return list;
+      for (const auto& [r, field] : data.patterns.front().fields) list.push_back(r);
+      return list;
+    };
+    if (set.features != all.features || set.field_unit != all.field_unit ||
+        resolutions(set) != resolutions(all)) {
+      throw InputError(
+          fmt::format("the data sets of {} and {} cannot be learned together: their impulses, "
+                      "resolutions or truncations differ; export them with the same options",
+                      names_of(all.shapes), names));
+    }
+    const auto before = static_cast<int>(all.shapes.size());
+    for (LearnedShape& shape : set.shapes) {
+      if (find_shape(all.shapes, shape.digest)) {
+        throw InputError(fmt::format("'{}' is in two of the data sets", shape.name));
+      }
+      all.shapes.push_back(std::move(shape));
+    }
+    for (Pattern& pattern : set.patterns) {
+      pattern.shape += before;
+      all.patterns.push_back(std::move(pattern));
+    }
+    provenances.push_back(set.provenance);
+  }
+  all.provenance = provenances.dump();
+  return all;
+}
+
 std::string digest_of(const DataSet& data) {
   Digest digest;
-  digest.add(data.shape_digest);
   digest.add(data.provenance);
-  for (const double v : {data.scaling.centre.x(), data.scaling.centre.y(), data.scaling.centre.z(),
-                         data.scaling.half_side, data.scaling.max_impulse, data.field_unit}) {
-    digest.add(v);
+  for (const LearnedShape& shape : data.shapes) {
+    digest.add(shape.digest);
+    const Vec3& c = shape.scaling.centre;
+    for (const double v :
+         {c.x(), c.y(), c.z(), shape.scaling.half_side, shape.scaling.max_impulse}) {
+      digest.add(v);
+    }
   }
+  digest.add(data.field_unit);
   for (const Pattern& pattern : data.patterns) {
     digest.add(pattern.name);
+    digest.add(static_cast<std::uint64_t>(pattern.shape));
     digest.add(std::as_bytes(std::span(pattern.impulses)));
     for (const auto& [r, field] : pattern.fields) {
       digest.add(static_cast<std::uint64_t>(r));

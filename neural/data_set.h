@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "core/impulse_vector.h"
+#include "neural/learned_shape.h"
 
 namespace fracbench::neural {
 
 /// One broken body, as a network sees it.
 struct Pattern {
   std::string name;             ///< "single-0012"
+  int shape = 0;                ///< whose it is: index into DataSet::shapes
   std::vector<float> impulses;  ///< the features' vectors [p d I], see core/impulse_vector.h
   /// GS-SDF by resolution r: r^3 values on unit_grid(r) (core/voxel_grid.h), x fastest, m.
   std::map<int, std::vector<float>> fields;
@@ -22,11 +23,9 @@ struct Pattern {
 
 /// What a network learns from, complete: a training machine needs nothing else.
 struct DataSet {
-  std::string shape;         ///< name of the target, for people
-  std::string shape_digest;  ///< of its mesh
-  std::string provenance;    ///< JSON: where the patterns come from, material included
-  int features = 1;          ///< impulses in each pattern
-  ImpulseScaling scaling;
+  std::vector<LearnedShape> shapes;
+  std::string provenance;  ///< JSON: where the patterns come from, material included
+  int features = 1;        ///< impulses in each pattern
   /// m: what 1 stands for in a network's output, which tanh keeps within +-1. Where fields are
   /// truncated, their limit: the network then sees them as large as it can tell them.
   double field_unit = 1;
@@ -38,13 +37,17 @@ struct DataSet {
 /// One file (core/array_file.h, packed) with
 ///   patterns/<k>/impulses   float32, 7 values for each feature
 ///   patterns/<k>/<r>        float32, r^3 values
-///   scaling                 float64: centre (3), half side, I_max
+///   pattern_shape           int32, for each pattern
 ///   field_unit              float64
-/// and the texts `shape`, `shape_digest`, `provenance` and `names` (JSON). Throws InputError.
+/// the shapes (learned_shape.h) and the texts `provenance` and `names` (JSON). Throws InputError.
 void write_data_set(const std::filesystem::path& file, const DataSet& data);
 
 /// Throws InputError where the file cannot be read, is damaged, or its numbers do not fit together.
 DataSet read_data_set(const std::filesystem::path& file);
+
+/// The patterns of all of them, as one network may learn them. Throws InputError where a shape is
+/// in two of them, or they differ in what a pattern is.
+DataSet joined(std::vector<DataSet> sets);
 
 /// SHA-256 of everything in it.
 std::string digest_of(const DataSet& data);

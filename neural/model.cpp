@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/array_file.h"
 #include "core/error.h"
@@ -13,7 +14,7 @@ namespace fracbench::neural {
 
 namespace {
 
-constexpr ArrayFileKind kKind{.format = "fracbench model", .version = 1};
+constexpr ArrayFileKind kKind{.format = "fracbench model", .version = 2};
 constexpr std::string_view kWeights = "weights/";
 constexpr std::string_view kStatistics = "statistics/";
 
@@ -59,13 +60,9 @@ Model model_of(ArrayFile& file) {
   Taker take(file);
   Model model;
   model.network = network_options_from_json(nlohmann::ordered_json::parse(take.text("network")));
-  model.shape = take.text("shape");
-  model.shape_digest = take.text("shape_digest");
+  model.shapes = take_shapes(file);
   model.provenance = take.text("provenance");
   const NetworkOptions& network = model.network;
-  const std::vector<double> s = take.reals("scaling", 5);
-  if (!(s[3] > 0 && s[4] > 0)) throw InputError("array 'scaling' is not that of a body");
-  model.scaling = {.centre = {s[0], s[1], s[2]}, .half_side = s[3], .max_impulse = s[4]};
   model.field_unit = take.reals("field_unit", 1)[0];
   if (!(model.field_unit > 0)) throw InputError("array 'field_unit' must hold a positive number");
   const auto code = static_cast<std::size_t>(network.impulse_code);
@@ -85,6 +82,13 @@ Model model_of(ArrayFile& file) {
     }
   }
   model.codebook_pattern = file.integers["codebook_pattern"];
+  model.codebook_shape = file.integers["codebook_shape"];
+  if (model.codebook_shape.size() != model.codebook_pattern.size() ||
+      !std::ranges::all_of(model.codebook_shape, [&](std::int32_t s) {
+        return s >= 0 && static_cast<std::size_t>(s) < model.shapes.size();
+      })) {
+    throw InputError("array 'codebook_shape' does not fit its shapes");
+  }
   model.codebook = take.floats(
       "codebook", model.codebook_pattern.size() * static_cast<std::size_t>(network.code_size()));
   const std::vector<double>& loss = file.reals["epoch_loss"];
@@ -103,12 +107,9 @@ std::span<const float> Model::row(std::size_t k) const {
 
 void write_model(const std::filesystem::path& path, const Model& model) {
   ArrayFile file;
-  file.texts = {{"network", to_json(model.network).dump()},
-                {"shape", model.shape},
-                {"shape_digest", model.shape_digest},
-                {"provenance", model.provenance}};
-  const Vec3& c = model.scaling.centre;
-  file.reals["scaling"] = {c.x(), c.y(), c.z(), model.scaling.half_side, model.scaling.max_impulse};
+  put_shapes(file, model.shapes);
+  file.texts["network"] = to_json(model.network).dump();
+  file.texts["provenance"] = model.provenance;
   file.reals["field_unit"] = {model.field_unit};
   for (const EpochRecord& epoch : model.epochs) {
     file.reals["epoch_loss"].push_back(epoch.loss);
@@ -118,6 +119,7 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   file.floats["siren.bias"] = model.siren.bias;
   file.floats["codebook"] = model.codebook;
   file.integers["codebook_pattern"] = model.codebook_pattern;
+  file.integers["codebook_shape"] = model.codebook_shape;
   for (const auto& [name, values] : model.weights) {
     file.floats[std::string(kWeights) + name] = values;
   }
@@ -145,11 +147,9 @@ std::vector<float> random_segment_code(int size, Random& random) {
   return code;
 }
 
-std::size_t nearest_row(const Model& model, std::span<const float> impulses, Random& random) {
+std::size_t nearest_row(const Model& model, std::size_t shape, std::span<const float> impulses,
+                        Random& random) {
   const NetworkOptions& network = model.network;
-  if (model.rows() == 0) {
-    throw InputError("the model's codebook is empty: it was not trained to the end of an epoch");
-  }
   if (impulses.size() != static_cast<std::size_t>(network.features * kImpulseValues)) {
     throw InputError(fmt::format("the model takes {} impulses, {} values were given",
                                  network.features, impulses.size()));
@@ -157,9 +157,10 @@ std::size_t nearest_row(const Model& model, std::span<const float> impulses, Ran
   std::vector<float> code = encode(model.siren, impulses);
   const std::vector<float> segment = random_segment_code(network.segment_code, random);
   code.insert(code.end(), segment.begin(), segment.end());
-  std::size_t best = 0;
+  std::optional<std::size_t> best;
   double least = INFINITY;
   for (std::size_t k = 0; k < model.rows(); ++k) {
+    if (static_cast<std::size_t>(model.codebook_shape[k]) != shape) continue;
     const std::span<const float> row = model.row(k);
     double sum = 0;
     for (std::size_t c = 0; c < code.size(); ++c) {
@@ -171,7 +172,11 @@ std::size_t nearest_row(const Model& model, std::span<const float> impulses, Ran
       best = k;
     }
   }
-  return best;
+  if (!best) {
+    throw InputError(
+        "the model's codebook has no row of this shape: it was not trained to the end of an epoch");
+  }
+  return *best;
 }
 
 }  // namespace fracbench::neural

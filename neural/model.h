@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/impulse_vector.h"
 #include "core/random.h"
+#include "neural/learned_shape.h"
 #include "neural/network_options.h"
 #include "neural/siren.h"
 
@@ -23,9 +23,7 @@ struct EpochRecord {
 /// A trained network, complete: what it needs to predict, and where it comes from.
 struct Model {
   NetworkOptions network;
-  std::string shape;         ///< name of the target
-  std::string shape_digest;  ///< of its mesh
-  ImpulseScaling scaling;
+  std::vector<LearnedShape> shapes;
   double field_unit = 1;  ///< m: what 1 of its outputs stands for
   Siren siren;
   std::map<std::string, std::vector<float>> weights;  ///< by the names of weight_specs
@@ -35,6 +33,7 @@ struct Model {
   /// Rows of network.code_size() values (E(J), Z^segment), equation (7) of the paper.
   std::vector<float> codebook;
   std::vector<std::int32_t> codebook_pattern;  ///< per row the training pattern it comes from
+  std::vector<std::int32_t> codebook_shape;    ///< and whose pattern that is: index into `shapes`
   std::vector<EpochRecord> epochs;
   std::string provenance;  ///< JSON: options of the training, data set, program, machine, time
 
@@ -42,9 +41,10 @@ struct Model {
   std::span<const float> row(std::size_t k) const;
 };
 
-/// One file (core/array_file.h): the texts `network` (JSON), `shape`, `shape_digest` and
-/// `provenance`, and the arrays `scaling`, `field_unit`, `siren.weight`, `siren.bias`, `codebook`,
-/// `codebook_pattern`, `epoch_loss`, `epoch_seconds`, `statistics/...` and `weights/...`.
+/// One file (core/array_file.h): the shapes (learned_shape.h), the texts `network` (JSON) and
+/// `provenance`, and the arrays `field_unit`, `siren.weight`, `siren.bias`, `codebook`,
+/// `codebook_pattern`, `codebook_shape`, `epoch_loss`, `epoch_seconds`, `statistics/...` and
+/// `weights/...`.
 void write_model(const std::filesystem::path& file, const Model& model);
 
 /// Reads such a file; nothing in it is run. Throws InputError where it cannot be read, is damaged,
@@ -55,9 +55,10 @@ Model read_model(const std::filesystem::path& file);
 /// deviation sqrt(2 / (n + 1)).
 std::vector<float> random_segment_code(int size, Random& random);
 
-/// The row of the codebook nearest to (E(J), Z^random) in the Euclidean norm over all values,
-/// equations (8) and (9); the first of equals. Throws InputError where the codebook is empty or the
-/// number of impulses is not the network's.
-std::size_t nearest_row(const Model& model, std::span<const float> impulses, Random& random);
+/// Of the rows of that shape in the codebook the one nearest to (E(J), Z^random) in the Euclidean
+/// norm over all values, equations (8) and (9); the first of equals. Throws InputError where it has
+/// none, or the number of impulses is not the network's.
+std::size_t nearest_row(const Model& model, std::size_t shape, std::span<const float> impulses,
+                        Random& random);
 
 }  // namespace fracbench::neural

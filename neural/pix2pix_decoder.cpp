@@ -91,7 +91,7 @@ VoxelGrid<float> Pix2pixDecoder::decode(const FieldSource& source, int resolutio
   const std::vector<int> channels = unet_channels(network);
   const auto depth = static_cast<int>(channels.size());
   std::vector<Volume> levels;
-  const auto impulses = impulse_volume(source.impulses, model_.scaling, resolution);
+  const auto impulses = impulse_volume(source.impulses, model_.shapes.front().scaling, resolution);
   Volume volume(impulses.begin(), impulses.end());
   for (int k = 0, side = resolution; k < depth; ++k, side /= 2) {
     volume = convolution(volume, side, k == 0 ? 1 : channels[k - 1], channels[k],

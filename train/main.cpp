@@ -37,7 +37,8 @@ constexpr const char* kAbout =
     "An interrupted training goes on where it was when the same command is given again.\n";
 
 struct Arguments {
-  std::string data, out, checkpoints, options_file, device = "cpu";
+  std::vector<std::string> data;
+  std::string out, checkpoints, options_file, device = "cpu";
   std::vector<std::string> set;
   int threads = 1;
   bool lines = false;
@@ -115,7 +116,9 @@ void set_option(Json& options, const std::string& assignment) {
 }
 
 int train(const Arguments& a, std::stop_token stop) {
-  const neural::DataSet data = neural::read_data_set(a.data);
+  std::vector<neural::DataSet> sets;
+  for (const std::string& file : a.data) sets.push_back(neural::read_data_set(file));
+  const neural::DataSet data = neural::joined(std::move(sets));
   training::TrainingOptions defaults;
   defaults.network.features = std::max(1, data.features);
   if (!data.patterns.empty()) {
@@ -130,7 +133,7 @@ int train(const Arguments& a, std::stop_token stop) {
   const training::TrainingOptions options = training::training_options_from_json(json);
 
   if (!a.lines) {
-    fmt::print(stderr, "{}: {} patterns, {:.1f} million parameters\n", data.shape,
+    fmt::print(stderr, "{}: {} patterns, {:.1f} million parameters\n", names_of(data.shapes),
                data.patterns.size(),
                static_cast<double>(neural::parameter_count(options.network)) / 1e6);
   }
@@ -146,14 +149,22 @@ int train(const Arguments& a, std::stop_token stop) {
   return kGood;
 }
 
+Json describe(const std::vector<neural::LearnedShape>& shapes) {
+  Json list = Json::array();
+  for (const neural::LearnedShape& shape : shapes) {
+    list.push_back({{"name", shape.name},
+                    {"digest", shape.digest},
+                    {"max_impulse", shape.scaling.max_impulse}});
+  }
+  return list;
+}
+
 Json describe(const neural::Model& model) {
   Json json{{"kind", "model"},
-            {"shape", model.shape},
-            {"shape_digest", model.shape_digest},
+            {"shapes", describe(model.shapes)},
             {"network", to_json(model.network)},
             {"parameters", neural::parameter_count(model.network)},
             {"codebook_rows", model.rows()},
-            {"max_impulse", model.scaling.max_impulse},
             {"epochs", model.epochs.size()}};
   if (!model.epochs.empty()) json["loss"] = model.epochs.back().loss;
   const Json provenance = Json::parse(model.provenance, nullptr, false);
@@ -163,11 +174,9 @@ Json describe(const neural::Model& model) {
 
 Json describe(const neural::DataSet& data) {
   Json json{{"kind", "data set"},
-            {"shape", data.shape},
-            {"shape_digest", data.shape_digest},
+            {"shapes", describe(data.shapes)},
             {"patterns", data.patterns.size()},
-            {"features", data.features},
-            {"max_impulse", data.scaling.max_impulse}};
+            {"features", data.features}};
   for (const auto& [r, field] :
        data.patterns.empty() ? std::map<int, std::vector<float>>() : data.patterns.front().fields) {
     json["resolutions"].push_back(r);
@@ -244,7 +253,10 @@ int run_program(int argc, char** argv, std::stop_token stop) {
 
   Arguments a;
   auto* command = app.add_subcommand("train", "Trains a network, or goes on with it");
-  command->add_option("DATASET", a.data, "Data set file, from 'fracbench export-learning'")
+  command
+      ->add_option(
+          "DATASET", a.data,
+          "Data set file from 'fracbench export-learning'; several: one model for all their shapes")
       ->required();
   command->add_option("--out", a.out, "The model's file")->required();
   command->add_option("--checkpoints", a.checkpoints, "Folder (default: OUT.checkpoints)");

@@ -51,6 +51,12 @@ void check_data(const DataSet& data, const neural::NetworkOptions& network) {
   if (data.patterns.empty()) {
     throw InputError("the data set holds no patterns: no collision broke the target");
   }
+  if (network.decoder == neural::Decoder::pix2pix && data.shapes.size() > 1) {
+    throw InputError(
+        fmt::format("a pix2pix decoder goes by the impulse alone and can learn one shape; the data "
+                    "set has {}",
+                    names_of(data.shapes)));
+  }
   if (data.features != network.features) {
     throw InputError(fmt::format("the data set has {} impulses a pattern, the network takes {}",
                                  data.features, network.features));
@@ -105,7 +111,8 @@ class Training {
       if (options.network.decoder == neural::Decoder::pix2pix) {
         const int r = options.network.resolutions.back();
         sample.volume =
-            tensor_of(neural::impulse_volume(pattern.impulses, data.scaling, r), {r, r, r})
+            tensor_of(neural::impulse_volume(pattern.impulses, data.shapes.front().scaling, r),
+                      {r, r, r})
                 .to(device_);
       }
     }
@@ -283,6 +290,7 @@ class Training {
       const std::vector<float> row = values_of(code_of(k, codes));
       model.codebook.insert(model.codebook.end(), row.begin(), row.end());
       model.codebook_pattern.push_back(static_cast<std::int32_t>(k));
+      model.codebook_shape.push_back(data_.patterns[k].shape);
     }
   }
 
@@ -290,15 +298,14 @@ class Training {
     const torch::NoGradGuard none;
     if (options_.network.statistics == neural::Statistics::reestimated) reestimate();
     Model model{.network = options_.network,
-                .shape = data_.shape,
-                .shape_digest = data_.shape_digest,
-                .scaling = data_.scaling,
+                .shapes = data_.shapes,
                 .field_unit = data_.field_unit,
                 .siren = siren_,
                 .weights = {},
                 .statistics = {},
                 .codebook = {},
                 .codebook_pattern = {},
+                .codebook_shape = {},
                 .epochs = epochs_,
                 .provenance = provenance().dump()};
     for (const auto& [name, tensor] : network_->weights()) model.weights[name] = values_of(tensor);

@@ -49,6 +49,13 @@ std::string encode_job(const Plan& plan, const Cell& cell, std::uint64_t memory)
   tree.put("method/label", std::string_view(method.label));
   tree.put("method/name", std::string_view(method.info.name));
   tree.put("method/options", std::string_view(method.options.to_json().dump()));
+  std::vector<std::string> labels, digests;
+  for (const LearnedWith& other : method.learn_with) {
+    labels.push_back(other.label);
+    digests.push_back(other.digest);
+  }
+  tree.put("method/learn_with", std::span<const std::string>(labels));
+  tree.put("method/learn_with_digests", std::span<const std::string>(digests));
   return to_bytes(tree);
 }
 
@@ -78,6 +85,12 @@ WorkerJob decode_job(std::string_view bytes, const Catalog& catalog) {
                                 .method = &method,
                                 .info = std::move(info),
                                 .options = std::move(options)});
+    const std::vector<std::string> labels = tree.texts("method/learn_with");
+    const std::vector<std::string> digests = tree.texts("method/learn_with_digests");
+    if (labels.size() != digests.size()) throw DataError("has shapes to learn without digests");
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      job.plan.methods.back().learn_with.push_back({.label = labels[i], .digest = digests[i]});
+    }
   } catch (const Json::exception& error) {
     throw DataError(fmt::format("has options that cannot be read: {}", error.what()));
   }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using deepfracture::DeepFractureBody;
 using deepfracture::Settings;
 
-// Patterns that the ceiling and the decoder are judged with: enough for a mean.
+// Patterns of a shape that the ceiling and the decoder are judged with: enough for a mean.
 constexpr std::size_t kJudged = 100;
 
 /// A folder to work in: the one that outlives interruptions where there is one, else one of our own
@@ -73,6 +73,7 @@ MethodInfo DeepFractureMethod::info() const {
   info.shape_type = "crack-propagation like";
   info.random = true;
   info.learns = true;
+  info.learns_several = true;
   info.volume_tolerance = 1;  // material is lost under parity; else reconstruct() checks
   return info;
 }
@@ -86,7 +87,13 @@ std::unique_ptr<Breakable> DeepFractureMethod::prepare(const Target& target,
   Settings settings = deepfracture::settings_from(options);
   if (!settings.model.empty()) {
     return std::make_unique<DeepFractureBody>(target, settings, neural::read_model(settings.model),
-                                              deepfracture::Agreement{});
+                                              std::vector<deepfracture::Agreement>{});
+  }
+  if (!learning.further.empty() && !settings.quantise) {
+    throw InputError(
+        "deepfracture: of several shapes only the rows of the codebook tell which one is meant: "
+        "set "
+        "option 'quantise' to true, or remove learn_with");
   }
   settings.seed = context.random.bits() >> 1;  // a number that every reader of JSON understands
   neural::DataSet data;
@@ -103,8 +110,8 @@ std::unique_ptr<Breakable> DeepFractureMethod::prepare(const Target& target,
     model = trained(data, settings, context);
   }
   const auto stage = context.timer.stage("judging");
-  deepfracture::Agreement agreement =
-      measure_agreement(learning, data, model, settings, context, kJudged);
+  std::vector<deepfracture::Agreement> agreement =
+      measure_agreement(target, learning, data, model, settings, context, kJudged);
   return std::make_unique<DeepFractureBody>(target, settings, std::move(model),
                                             std::move(agreement));
 }

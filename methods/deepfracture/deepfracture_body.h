@@ -12,13 +12,14 @@
 
 namespace fracbench::deepfracture {
 
-/// A target with the model that was trained for it.
+/// A target with the model that was trained for it, and maybe for others.
 class DeepFractureBody : public Breakable {
  public:
-  /// Throws InputError where the model is of another shape, has no output of the wanted resolution
-  /// or takes another number of impulses.
+  /// `agreement` is that of each of the model's shapes, or empty where it was not measured. Throws
+  /// InputError where the target is none of the model's shapes, or the model has no output of the
+  /// wanted resolution or takes another number of impulses.
   DeepFractureBody(const Target& target, Settings settings, neural::Model model,
-                   Agreement agreement);
+                   std::vector<Agreement> agreement);
 
   /// Algorithm 2 of the paper, lines 6 and 7: prediction, segmentation, cut.
   std::vector<Piece> fracture(const Impact& impact, Context& context) const override;
@@ -27,7 +28,8 @@ class DeepFractureBody : public Breakable {
   void save(const std::filesystem::path& folder) const override;
 
   const neural::Model& model() const { return model_; }
-  const Agreement& agreement() const { return agreement_; }
+  /// Of each of the model's shapes.
+  const std::vector<Agreement>& agreement() const { return agreement_; }
 
  private:
   void report_training(Context& context) const;
@@ -37,7 +39,8 @@ class DeepFractureBody : public Breakable {
   TriangleMesh mesh_;
   Settings settings_;
   neural::Model model_;
-  Agreement agreement_;
+  std::size_t shape_;  ///< the target among the model's shapes
+  std::vector<Agreement> agreement_;
   std::unique_ptr<neural::FieldDecoder> decoder_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -276,6 +277,50 @@ TEST_F(LearningDataTest, IsHandedToMethodsThatLearnAndIsPartOfTheirKeys) {
     EXPECT_EQ(keys({}).first, keys({setting}).first) << setting;
     EXPECT_NE(keys({}).second, keys({setting}).second) << setting;
   }
+}
+
+TEST_F(LearningDataTest, OfSeveralShapesIsHandedToAMethodThatLearnsThemTogether) {
+  const std::string text = learning_suite_text(true) + "learn_with = [\"box\", \"slab\"]\n";
+  const Suite together = parse_suite(text, "toys.toml", catalog);
+  EXPECT_EQ(learning_shapes(together, {"slab"}), (std::vector<std::string>{"box", "slab"}));
+  Plan plan = make_plan(together, catalog, {.methods = {}, .shapes = {"slab"}});
+  plan.learning_folder = made();
+  EXPECT_TRUE(has_learning_data(plan, plan.learning_folder));
+  EXPECT_TRUE(run_suite(plan, catalog, {.folder = base / "results"}).complete());
+  const LearningShapeSet box =
+      load_learning_shape(made(), read_learning_index(made()).shape("box", ""));
+  EXPECT_EQ(last_lesson().examples, 12u);
+  ASSERT_EQ(last_lesson().further.size(), 1u);
+  const Lesson lesson = last_lesson();
+  const FurtherLearning& further = lesson.further.front();
+  EXPECT_EQ(further.shape, "box");
+  EXPECT_EQ(further.mesh.vertices, box.mesh.vertices);
+  EXPECT_EQ(further.examples.size(), box.train.size());
+  EXPECT_EQ(further.max_impulse, box.max_impulse);
+
+  // One seed for what they share, and the data of both in the keys.
+  const auto cells_of = [&](const Suite& of) {
+    std::map<std::string, Cell> cells;
+    const Plan all = make_plan(of, catalog);
+    for (const Cell& cell : all.cells) {
+      if (cell.method == 1) cells[all.shapes[cell.shape].label] = cell;
+    }
+    return cells;
+  };
+  const auto both = cells_of(together), alone = cells_of(suite(true));
+  EXPECT_EQ(both.at("box").prepare_seed, both.at("slab").prepare_seed);
+  EXPECT_NE(alone.at("box").prepare_seed, alone.at("slab").prepare_seed);
+  EXPECT_NE(both.at("box").key, alone.at("box").key);
+
+  const auto message = [&](const std::string& from, const std::string& to) {
+    std::string bad = text;
+    bad.replace(bad.find(from), from.size(), to);
+    return message_of([&] { make_plan(parse_suite(bad, "t.toml", catalog), catalog); });
+  };
+  EXPECT_THAT(message("learn_with = [\"box\"", "learn_with = [\"bix\""),
+              AllOf(HasSubstr("learn_with"), HasSubstr("did you mean 'box'")));
+  EXPECT_THAT(message("name = \"pupil\"", "name = \"halves\"\nlabel = \"b\""),
+              HasSubstr("does not learn several shapes"));
 }
 
 TEST_F(LearningDataTest, OfOtherValuesIsNotHandedToAMethod) {

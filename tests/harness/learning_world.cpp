@@ -15,13 +15,16 @@ class Pupil : public Method {
     MethodInfo info = teacher_.info();
     info.name = "pupil";
     info.learns = true;
+    info.learns_several = true;
     return info;
   }
   OptionsSchema options() const override { return teacher_.options(); }
   std::unique_ptr<Breakable> prepare(const Target& target, const LearningData& learning,
                                      const Options& options, Context& context) const override {
     if (learning.examples.empty()) throw MethodFailure("nothing to learn from");
-    lesson = {learning.examples.size(), learning.max_impulse};
+    lesson = {.examples = learning.examples.size(),
+              .max_impulse = learning.max_impulse,
+              .further = learning.further};
     return teacher_.prepare(target, learning, options, context);
   }
   std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,

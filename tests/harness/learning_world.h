@@ -8,7 +8,8 @@
 namespace fracbench {
 
 /// The toy world with scenes that break the target in some directions only, and with a method that
-/// learns: "pupil" breaks as "halves" does and fails where it was given no examples.
+/// learns, several shapes at once, too: "pupil" breaks as "halves" does and fails where it was
+/// given no examples.
 class LearningWorld {
  public:
   LearningWorld();
@@ -23,6 +24,7 @@ class LearningWorld {
 struct Lesson {
   std::size_t examples = 0;
   double max_impulse = 0;
+  std::vector<FurtherLearning> further = {};
 };
 Lesson last_lesson();
 

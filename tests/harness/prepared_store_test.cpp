@@ -155,6 +155,30 @@ TEST_F(PreparedStoreTest, MakesAnotherOneForWhateverDeterminesIt) {
   EXPECT_THROW(get(), InputError);
 }
 
+TEST_F(PreparedStoreTest, WhatLearnsSeveralShapesIsOneForAllOfThem) {
+  Random random(1);
+  StageTimer timer;
+  Progress progress;
+  Context context{.random = random, .timer = timer, .progress = progress};
+  const Target other{.name = "slab", .mesh = box_mesh({0, 0, 0}, {1, 1, 3}), .material = {}};
+  const auto number_for = [&](const Target& target, const std::string& own,
+                              std::vector<std::string> further) {
+    return number(store_.get({.method = method_,
+                              .options = options_,
+                              .target = target,
+                              .learning_digest = own,
+                              .further_digests = std::move(further)},
+                             context));
+  };
+  const std::uint64_t one = number_for(target_, "of box", {"of slab"});
+  EXPECT_EQ(number_for(other, "of slab", {"of box"}), one);
+  EXPECT_EQ(method_.made, 1);
+  number_for(other, "of slab", {"of cube"});
+  EXPECT_EQ(method_.made, 2);
+  number_for(other, "of slab", {});
+  EXPECT_EQ(method_.made, 3);
+}
+
 TEST_F(PreparedStoreTest, DamagedEntriesAreMadeAnew) {
   const std::uint64_t good = number(get());
   const fs::path entry = only_entry();

@@ -29,12 +29,13 @@ std::vector<float> field_of(const Vec3& normal, double offset, int r) {
 }  // namespace
 
 neural::DataSet made_up_data(int patterns, const std::vector<int>& resolutions, int features) {
-  neural::DataSet data{.shape = "ball",
-                       .shape_digest = "0123",
-                       .provenance = R"({"made":"up"})",
-                       .features = features,
-                       .scaling = {.centre = {0, 0, 0}, .half_side = 0.8, .max_impulse = 1e6},
-                       .patterns = {}};
+  neural::DataSet data{
+      .shapes = {{.name = "ball",
+                  .digest = "0123",
+                  .scaling = {.centre = {0, 0, 0}, .half_side = 0.8, .max_impulse = 1e6}}},
+      .provenance = R"({"made":"up"})",
+      .features = features,
+      .patterns = {}};
   Random random(7);
   for (int n = 0; n < patterns; ++n) {
     neural::Pattern pattern{.name = "made-up-" + std::to_string(n), .impulses = {}, .fields = {}};

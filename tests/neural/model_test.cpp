@@ -28,15 +28,14 @@ class NeuralFiles : public ::testing::Test {
 Model random_model(NetworkOptions network, const DataSet& data) {
   Random random(3);
   Model model{.network = network,
-              .shape = data.shape,
-              .shape_digest = data.shape_digest,
-              .scaling = data.scaling,
+              .shapes = data.shapes,
               .field_unit = 0.5,
               .siren = make_siren(network, random),
               .weights = {},
               .statistics = {},
               .codebook = {},
               .codebook_pattern = {},
+              .codebook_shape = {},
               .epochs = {{0.5, 1}, {0.25, 1}},
               .provenance = "{}"};
   for (const WeightSpec& spec : weight_specs(network)) {
@@ -50,6 +49,7 @@ Model random_model(NetworkOptions network, const DataSet& data) {
     row.insert(row.end(), segment.begin(), segment.end());
     model.codebook.insert(model.codebook.end(), row.begin(), row.end());
     model.codebook_pattern.push_back(static_cast<std::int32_t>(k));
+    model.codebook_shape.push_back(data.patterns[k].shape);
   }
   return model;
 }
@@ -80,11 +80,43 @@ TEST_F(NeuralFiles, DataSetsWhoseNumbersDoNotFitAreRefused) {
   bad.patterns[0].fields[16][7] = NAN;
   refused(bad);
   bad = good;
-  bad.scaling.max_impulse = 0;
+  bad.shapes[0].scaling.max_impulse = 0;
+  refused(bad);
+  bad = good;
+  bad.patterns[1].shape = 1;
+  refused(bad);
+  bad = good;
+  bad.shapes.clear();
   refused(bad);
   bad = good;
   bad.field_unit = 0;
   refused(bad);
+}
+
+TEST_F(NeuralFiles, DataSetsOfSeveralShapesAreJoinedIntoOne) {
+  const DataSet ball = test::made_up_data(2, {16});
+  DataSet box = test::made_up_data(3, {16});
+  box.shapes[0] = {.name = "box", .digest = "4567", .scaling = {.half_side = 0.5}};
+  const DataSet both = joined({ball, box});
+  EXPECT_EQ(names_of(both.shapes), "ball, box");
+  ASSERT_EQ(both.patterns.size(), 5u);
+  EXPECT_EQ(both.patterns[1], ball.patterns[1]);
+  EXPECT_EQ(both.patterns[2].shape, 1);
+  EXPECT_EQ(both.patterns[2].fields, box.patterns[0].fields);
+  write_data_set(file_, both);
+  EXPECT_EQ(read_data_set(file_), both);
+  EXPECT_EQ(find_shape(both.shapes, "4567"), 1u);
+  EXPECT_EQ(find_shape(both.shapes, "89"), std::nullopt);
+  EXPECT_EQ(joined({ball}), ball);
+
+  EXPECT_THROW(joined({}), InputError);
+  EXPECT_THROW(joined({ball, ball}), InputError);
+  DataSet other = box;
+  other.field_unit = 0.1;
+  EXPECT_THROW(joined({ball, other}), InputError);
+  other = test::made_up_data(3, {32});
+  other.shapes = box.shapes;
+  EXPECT_THROW(joined({ball, other}), InputError);
 }
 
 TEST_F(NeuralFiles, ModelComesBackAsItWas) {
@@ -100,7 +132,7 @@ TEST_F(NeuralFiles, ModelComesBackAsItWas) {
     write_model(file_, model);
     const Model again = read_model(file_);
     EXPECT_EQ(again.network, model.network);
-    EXPECT_EQ(again.scaling, model.scaling);
+    EXPECT_EQ(again.shapes, model.shapes);
     EXPECT_EQ(again.field_unit, model.field_unit);
     EXPECT_EQ(again.siren, model.siren);
     EXPECT_EQ(again.weights, model.weights);
@@ -115,7 +147,7 @@ TEST_F(NeuralFiles, ModelComesBackAsItWas) {
 
 // The check sum fits, the arrays do not.
 TEST_F(NeuralFiles, ModelsWithArraysOfAnotherSizeAreRefused) {
-  constexpr ArrayFileKind kind{.format = "fracbench model", .version = 1};
+  constexpr ArrayFileKind kind{.format = "fracbench model", .version = 2};
   const Model model =
       random_model({.resolutions = {32}, .width = 1.0 / 32}, test::made_up_data(2, {16}));
   write_model(file_, model);
@@ -158,25 +190,42 @@ TEST(Codebook, GivesTheRowNearestToTheImpulseAndTheRandomCode) {
   const Model model = random_model({.resolutions = {32}, .width = 1.0 / 64}, data);
   Random random(1);
   for (std::size_t k = 0; k < data.patterns.size(); ++k) {
-    EXPECT_EQ(nearest_row(model, data.patterns[k].impulses, random) % 6, k % 6);
+    EXPECT_EQ(nearest_row(model, 0, data.patterns[k].impulses, random) % 6, k % 6);
   }
   // One impulse for all: only the random code chooses, and chooses different rows.
   DataSet same = data;
   for (Pattern& pattern : same.patterns) pattern.impulses = data.patterns[0].impulses;
   const Model alike = random_model(model.network, same);
   std::set<std::size_t> rows;
-  for (int k = 0; k < 100; ++k) rows.insert(nearest_row(alike, data.patterns[0].impulses, random));
+  for (int k = 0; k < 100; ++k)
+    rows.insert(nearest_row(alike, 0, data.patterns[0].impulses, random));
   EXPECT_GT(rows.size(), 5u);
+}
+
+TEST(Codebook, AnswersWithARowOfTheShapeThatIsAsked) {
+  DataSet other = test::made_up_data(6, {16});
+  other.shapes[0] = {.name = "box", .digest = "4567", .scaling = other.shapes[0].scaling};
+  const DataSet both = joined({test::made_up_data(4, {16}), std::move(other)});
+  const Model model = random_model({.resolutions = {32}, .width = 1.0 / 64}, both);
+  Random random(1);
+  for (std::size_t k = 0; k < 4; ++k) {
+    // The first patterns of both are the same blows.
+    const std::vector<float>& blow = both.patterns[k].impulses;
+    EXPECT_LT(nearest_row(model, 0, blow, random), 4u);
+    EXPECT_GE(nearest_row(model, 1, blow, random), 4u);
+  }
+  EXPECT_THROW(nearest_row(model, 2, both.patterns[0].impulses, random), InputError);
 }
 
 TEST(Codebook, ThatIsEmptyIsAnError) {
   const DataSet data = test::made_up_data(1, {16});
   Model model = random_model({.resolutions = {32}, .width = 1.0 / 64}, data);
   Random random(1);
-  EXPECT_THROW(nearest_row(model, std::vector<float>(14), random), InputError);
+  EXPECT_THROW(nearest_row(model, 0, std::vector<float>(14), random), InputError);
   model.codebook.clear();
   model.codebook_pattern.clear();
-  EXPECT_THROW(nearest_row(model, data.patterns[0].impulses, random), InputError);
+  model.codebook_shape.clear();
+  EXPECT_THROW(nearest_row(model, 0, data.patterns[0].impulses, random), InputError);
 }
 
 TEST(VoxelDecoder, HasOnlyTheResolutionsOfItsNetwork) {

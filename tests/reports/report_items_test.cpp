@@ -323,5 +323,25 @@ TEST(TrainingItem, tells_how_much_of_the_ceiling_was_reached) {
   EXPECT_EQ(shown.figures[0].series[0].y, (std::vector<double>{0.5, 0.1, 0.02}));
 }
 
+TEST(TrainingItem, ShowsTheQualityAgainstTheNumberOfShapesInTheModel) {
+  ReportInput input;
+  for (const double shapes : {1.0, 4.0}) {
+    CellSummary cell = broken_cell(shapes == 1 ? "alone" : "of four", "pot", 0, {5, 5});
+    cell.series.push_back({cell.method + "_training_loss", {0.5}, ""});
+    cell.series.push_back({cell.method + "_shapes", {shapes}, ""});
+    cell.series.push_back({cell.method + "_round_trip", {0.8, 0.8}, ""});
+    cell.series.push_back({cell.method + "_decoded", {0.8, 0.8 / shapes}, ""});
+    input.cells.push_back(std::move(cell));
+  }
+  const ReportSection shown = section(input, "training");
+  EXPECT_EQ(number(at(table(shown, "training"), 1, "shapes in the model")), 4);
+  const auto figure = std::ranges::find(shown.figures, "quality_by_shapes", &Figure::name);
+  ASSERT_NE(figure, shown.figures.end());
+  ASSERT_EQ(figure->series.size(), 1u);
+  EXPECT_EQ(figure->series[0].x, (std::vector<double>{1, 4}));
+  EXPECT_NEAR(figure->series[0].y[0], 100, 1e-9);
+  EXPECT_NEAR(figure->series[0].y[1], 62.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace fracbench

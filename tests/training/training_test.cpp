@@ -161,7 +161,7 @@ TEST(Pix2pixDecoder, IsWhatLibtorchTrains) {
   Pix2pixNetwork network(options.network, random, torch::kCPU);
   copy_weights(model, network);
   const auto& impulses = data.patterns[1].impulses;
-  const auto volume = neural::impulse_volume(impulses, data.scaling, 32);
+  const auto volume = neural::impulse_volume(impulses, data.shapes[0].scaling, 32);
   EXPECT_EQ(std::ranges::count_if(volume, [](float v) { return v != 0; }), 1);
   const torch::NoGradGuard none;
   const torch::Tensor expected = network.generate(tensor_of(volume, {32, 32, 32}));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/error.h"
@@ -82,6 +83,57 @@ TEST_F(DeepFractureTest, SavedAndLoadedItAnswersTheSame) {
   target = learned_boxes::body();
   fs::resize_file(file, fs::file_size(file) / 2);
   EXPECT_THROW(method.load(folder, target, options()), InputError);
+  fs::remove_all(folder);
+}
+
+TEST_F(DeepFractureTest, OneModelLearnsSeveralShapesAndIsTheSameForEachOfThem) {
+  // The same box and its fractures, half as high.
+  const auto flattened = [](TriangleMesh mesh) {
+    for (Vec3& v : mesh.vertices) v.z() /= 2;
+    return mesh;
+  };
+  Target flat{.name = "flat", .mesh = flattened(target.mesh), .material = {}};
+  LearningData of_flat = learned_boxes::learning_data(3);
+  for (LearningExample& example : of_flat.examples) {
+    for (Fragment& fragment : example.fragments) fragment.mesh = flattened(fragment.mesh);
+  }
+  LearningData for_box = data, for_flat = of_flat;
+  for_box.further = {{.shape = flat.name,
+                      .mesh = flat.mesh,
+                      .examples = of_flat.examples,
+                      .max_impulse = of_flat.max_impulse}};
+  for_flat.further = {{.shape = target.name,
+                       .mesh = target.mesh,
+                       .examples = data.examples,
+                       .max_impulse = data.max_impulse}};
+  const Options with = options();
+  learned_boxes::QuietContext first, second;
+  const auto box_body = method.prepare(target, for_box, with, first.get());
+  const auto flat_body = method.prepare(flat, for_flat, with, second.get());
+  const fs::path folder = learned_boxes::fresh_folder("deepfracture-both");
+  flat_body->save(folder);
+  EXPECT_TRUE(same_pieces(broken(*box_body, 0.2), broken(*method.load(folder, target, with), 0.2)));
+
+  // Each answers with a row of its own patterns, and says so.
+  const auto found = [](const Breakable& body, std::string_view name) {
+    learned_boxes::QuietContext context(5);
+    std::vector<Finding> findings;
+    context.get().findings = &findings;
+    body.fracture(impact_at(0.2), context.get());
+    const auto at = std::ranges::find(findings, name, &Finding::name);
+    return at == findings.end() ? std::vector<double>() : at->values;
+  };
+  EXPECT_EQ(found(*box_body, "deepfracture_shapes"), std::vector<double>{2});
+  EXPECT_EQ(found(*box_body, "deepfracture_round_trip").size(), data.examples.size());
+  EXPECT_EQ(found(*flat_body, "deepfracture_round_trip").size(), of_flat.examples.size());
+  EXPECT_EQ(found(*method.load(folder, target, with), "deepfracture_round_trip"),
+            found(*box_body, "deepfracture_round_trip"));
+
+  EXPECT_THROW(method.prepare(target, for_box, options({{"quantise", false}}), first.get()),
+               InputError);
+  EXPECT_THROW(
+      method.prepare(target, for_box, options({{"decoder", std::string("pix2pix")}}), first.get()),
+      InputError);
   fs::remove_all(folder);
 }
 
