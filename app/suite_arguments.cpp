@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "core/text.h"
+#include "harness/collision_store.h"
 #include "harness/cost_model.h"
 #include "harness/learning_plan.h"
 #include "harness/suite_files.h"
@@ -39,8 +40,7 @@ void add_suite_options(CLI::App& command, SuiteArguments& a) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command.add_option_function<std::string>(
-      "--device",
-      [&a](const std::string& device) { a.settings.push_back("device=" + device); },
+      "--device", [&a](const std::string& device) { a.settings.push_back("device=" + device); },
       "cpu or cuda, for methods that can compute on one; the same as --set device=cuda");
   command
       .add_option("--set", a.settings,
@@ -102,6 +102,9 @@ LearningResult make_learning_data(const Suite& suite, const Catalog& catalog,
                        .message = [&](std::string_view text) { shown.message(text); }};
     CellWorkers workers(plan, catalog, a);
     workers.measure_for(options);
+    if (const auto store = CollisionStore::of_user(); store && options.execute) {
+      options.execute = store->through(plan, options.execute);
+    }
     result = make_learning_data(plan, suite.learning->split, catalog, options);
   }
   for (const std::string& line : result.shortages) fmt::print(stderr, "fracbench: {}\n", line);

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -83,8 +81,6 @@ std::string complaint(const fs::path& folder, const Json& manifest, bool digests
   return "";
 }
 
-void warn(const std::string& text) { fmt::print(stderr, "fracbench: cache: {}\n", text); }
-
 PreparedBody make(const PreparedRequest& request, Context& context) {
   const auto start = Clock::now();
   const LearningData learning = request.learning ? request.learning() : LearningData();
@@ -129,20 +125,13 @@ PreparedBody read(const PreparedRequest& request, const fs::path& entry) {
   } catch (const fs::filesystem_error& error) {
     why = error.what();
   }
-  warn(fmt::format("the entry {} for {} is made anew: {}", entry.filename().string(),
-                   request.target.name, why));
+  warn_of_cache(fmt::format("the entry {} for {} is made anew: {}", entry.filename().string(),
+                            request.target.name, why));
   const fs::path aside = entry.string() + ".damaged";
   std::error_code ignored;
   fs::remove_all(aside, ignored);
   fs::rename(entry, aside, ignored);
   return {};
-}
-
-std::chrono::system_clock::time_point used_at(const fs::path& file) {
-  std::error_code error;
-  const auto time = fs::last_write_time(file, error);
-  if (error) return {};
-  return std::chrono::file_clock::to_sys(time);
 }
 
 }  // namespace
@@ -180,17 +169,9 @@ std::string prepared_key(const PreparedRequest& request, const Context& context)
 }
 
 std::optional<PreparedStore> PreparedStore::of_user() {
-  if (const char* named = std::getenv("FRACBENCH_CACHE")) {
-    if (*named == '\0') return std::nullopt;
-    return PreparedStore(named);
-  }
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
-    return PreparedStore(fs::path(cache) / "fracbench");
-  }
-  if (const char* home = std::getenv("HOME"); home && *home) {
-    return PreparedStore(fs::path(home) / ".cache" / "fracbench");
-  }
-  return std::nullopt;
+  const auto folder = user_cache_folder();
+  if (!folder) return std::nullopt;
+  return PreparedStore(*folder);
 }
 
 fs::path PreparedStore::entry(const std::string& key) const { return folder_ / "prepared" / key; }
@@ -222,32 +203,31 @@ PreparedBody PreparedStore::get(const PreparedRequest& request, Context& context
       keep(made, request, path);
       fs::remove_all(work);
     } catch (const std::exception& error) {
-      warn(fmt::format("{} for {} is not kept: {}", request.method.info().name, request.target.name,
-                       error.what()));
+      warn_of_cache(fmt::format("{} for {} is not kept: {}", request.method.info().name,
+                                request.target.name, error.what()));
     }
     return made;
   } catch (const fs::filesystem_error& error) {
-    warn(fmt::format("'{}' cannot be used: {}; name another folder in FRACBENCH_CACHE",
-                     folder_.string(), error.code().message()));
+    warn_of_cache(fmt::format("'{}' cannot be used: {}; name another folder in FRACBENCH_CACHE",
+                              folder_.string(), error.code().message()));
     return make(request, context);
   }
 }
 
-std::vector<StoredBody> PreparedStore::list(bool verify) const {
-  std::vector<StoredBody> bodies;
+std::vector<CacheEntry> PreparedStore::list(bool verify) const {
+  std::vector<CacheEntry> bodies;
   std::error_code error;
   for (const auto& folder : fs::directory_iterator(folder_ / "prepared", error)) {
     if (!folder.is_directory() || folder.path().has_extension()) continue;
-    StoredBody body{.key = folder.path().filename().string(),
+    CacheEntry body{.key = folder.path().filename().string(),
                     .method = "?",
                     .shape = "?",
-                    .used = used_at(folder.path() / kManifest),
-                    .complaint = {}};
+                    .used = last_written(folder.path() / kManifest)};
     try {
       const Json manifest = read_manifest(folder.path());
       body.method = manifest["method"];
       body.shape = manifest["shape"];
-      body.seconds = manifest["seconds"];
+      body.seconds = manifest["seconds"].get<double>();
       for (const auto& [name, file] : manifest["files"].items()) {
         body.bytes += file["bytes"].get<std::uintmax_t>();
       }
@@ -257,7 +237,7 @@ std::vector<StoredBody> PreparedStore::list(bool verify) const {
     }
     bodies.push_back(std::move(body));
   }
-  std::ranges::sort(bodies, {}, &StoredBody::key);
+  std::ranges::sort(bodies, {}, &CacheEntry::key);
   return bodies;
 }
 

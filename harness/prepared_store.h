@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +10,7 @@
 
 #include "core/context.h"
 #include "core/target.h"
+#include "harness/user_cache.h"
 #include "methods/method.h"
 
 namespace fracbench {
@@ -40,25 +40,13 @@ std::string prepared_key(const PreparedRequest& request, const Context& context)
 /// InputError where one cannot be read.
 std::string digest_of_files(const Method& method, const Options& options);
 
-/// A body of the store, as `fracbench cache` shows it.
-struct StoredBody {
-  std::string key;
-  std::string method;
-  std::string shape;
-  double seconds = 0;
-  std::uintmax_t bytes = 0;
-  std::chrono::system_clock::time_point used;  ///< when it was last made or read
-  std::string complaint;                       ///< what is wrong with it; empty: nothing
-};
-
 /// Prepared bodies on the disk, by content: see docs/cache.md. Any number of processes may use one
 /// folder.
 class PreparedStore {
  public:
   explicit PreparedStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The folder that FRACBENCH_CACHE names, else fracbench below XDG_CACHE_HOME or ~/.cache. None
-  /// where FRACBENCH_CACHE is empty, or there is no home.
+  /// Below user_cache_folder().
   static std::optional<PreparedStore> of_user();
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -70,7 +58,7 @@ class PreparedStore {
 
   /// All entries, by key. With `verify` the digests of all files are checked, else only that they
   /// are there.
-  std::vector<StoredBody> list(bool verify = false) const;
+  std::vector<CacheEntry> list(bool verify = false) const;
 
   /// Removes an entry. False where it is not there or cannot be removed.
   bool remove(const std::string& key) const;

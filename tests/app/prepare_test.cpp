@@ -49,6 +49,38 @@ TEST_F(Prepare, MakesLearningDataAndSaysWhatItIs) {
   EXPECT_THAT(again.output, AllOf(HasSubstr("3 train, 1 test"), HasSubstr("results/learning")));
 }
 
+TEST_F(Prepare, TakesCollisionsFromTheCacheWhichCanBeListedVerifiedAndPruned) {
+  const fs::path cache = folder_.path() / "cache";
+  const auto with_cache = [&](const std::string& arguments) {
+    return call(arguments, folder_.path(), cache);
+  };
+  for (const char* out : {"one", "two"}) {
+    const Answer made = with_cache(std::string("prepare learn.toml --out ") + out);
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+  }
+  EXPECT_EQ(folder_.read("one/learning/learning.json"), folder_.read("two/learning/learning.json"));
+  const auto list = with_cache("cache list --json").json();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0]["kind"], "collisions");
+  EXPECT_EQ(list[0]["collisions"], 6);
+  EXPECT_EQ(list[0]["shape"], "cube");
+  EXPECT_THAT(with_cache("cache list").output, HasSubstr("6 collisions"));
+
+  const fs::path entry = cache / "collisions" / list[0]["key"].get<std::string>();
+  for (const auto& item : fs::directory_iterator(entry)) {
+    if (item.path().extension() != ".h5") continue;
+    fs::resize_file(item.path(), fs::file_size(item.path()) / 2);
+    break;
+  }
+  EXPECT_EQ(with_cache("cache verify").exit_code, 2);
+  EXPECT_EQ(with_cache("cache prune --damaged").exit_code, 0);
+  EXPECT_EQ(with_cache("cache verify").exit_code, 0);
+  EXPECT_EQ(with_cache("cache list --json").json()[0]["collisions"], 5);
+  EXPECT_EQ(with_cache("cache prune --keep-mb 0").exit_code, 0);
+  EXPECT_FALSE(fs::exists(entry));
+  EXPECT_EQ(call("cache list", folder_.path()).exit_code, 2) << "there is no cache";
+}
+
 TEST_F(Prepare, SaysThatTooFewBroke) {
   const Answer answer = prepare("--set learning.train=30");
   EXPECT_EQ(answer.exit_code, 4);

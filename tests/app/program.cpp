@@ -19,20 +19,20 @@ std::string content_of(const fs::path& file) {
 
 }  // namespace
 
-Answer call(const std::string& arguments, const fs::path& folder) {
+Answer call(const std::string& arguments, const fs::path& folder, const fs::path& cache) {
   const TemporaryFolder streams;
-  Answer answer = call_with_output(arguments, folder, streams.path() / "out");
+  Answer answer = call_with_output(arguments, folder, streams.path() / "out", cache);
   answer.output = content_of(streams.path() / "out");
   return answer;
 }
 
 Answer call_with_output(const std::string& arguments, const fs::path& folder,
-                        const fs::path& output) {
+                        const fs::path& output, const fs::path& cache) {
   const TemporaryFolder streams;
   const fs::path errors = streams.path() / "err";
-  const std::string line = "cd '" + folder.string() + "' && FRACBENCH_CACHE= exec '" FRACBENCH_PROGRAM "' " +
-                           arguments + " >'" + output.string() + "' 2>'" + errors.string() +
-                           "' </dev/null";
+  const std::string line = "cd '" + folder.string() + "' && FRACBENCH_CACHE='" + cache.string() +
+                           "' exec '" FRACBENCH_PROGRAM "' " + arguments + " >'" + output.string() +
+                           "' 2>'" + errors.string() + "' </dev/null";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), "", content_of(errors)};
 }

@@ -15,12 +15,15 @@ struct Answer {
   nlohmann::json json() const { return nlohmann::json::parse(output); }
 };
 
-/// Runs the built `fracbench` with these arguments, as a shell would split them, in `folder`.
-Answer call(const std::string& arguments, const std::filesystem::path& folder);
+/// Runs the built `fracbench` with these arguments, as a shell would split them, in `folder`; with
+/// a cache where one is named.
+Answer call(const std::string& arguments, const std::filesystem::path& folder,
+            const std::filesystem::path& cache = {});
 
 /// The same with the output sent to that file instead of into the answer.
 Answer call_with_output(const std::string& arguments, const std::filesystem::path& folder,
-                        const std::filesystem::path& output);
+                        const std::filesystem::path& output,
+                        const std::filesystem::path& cache = {});
 
 /// An empty folder that is removed at the end of the test.
 class TemporaryFolder {
