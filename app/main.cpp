@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/command.h"
-#include "core/interrupt.h"
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "core/text.h"
 #include "harness/build_info.h"
 #include "harness/catalog.h"

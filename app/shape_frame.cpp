@@ -16,7 +16,8 @@ bool before(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 ShapeFrame::ShapeFrame(TriangleMesh own, double longest_side)
-    : own_(std::move(own)), normalized_(longest_side == 0 ? own_ : fracbench::normalized(own_, longest_side)) {
+    : own_(std::move(own)),
+      normalized_(longest_side == 0 ? own_ : fracbench::normalized(own_, longest_side)) {
   const BoundingBox from = bounding_box(own_);
   const bool unchanged = own_.vertices == normalized_.vertices;
   center_ = unchanged ? Vec3::Zero() : from.center();

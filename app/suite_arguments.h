@@ -20,7 +20,7 @@ struct SuiteArguments {
   std::string suite;
   std::filesystem::path out;
   std::filesystem::path learning;  ///< folder of learning data; empty: below `out`
-  std::string scale;  ///< of the suite; empty: as it stands
+  std::string scale;               ///< of the suite; empty: as it stands
   std::vector<std::string> settings;
   PlanOptions plan;
   int jobs = 1;

@@ -46,8 +46,8 @@ BENCHMARK(Sgemm)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchm
 
 void Predict(benchmark::State& state) {
   const int r = static_cast<int>(state.range(0)), threads = static_cast<int>(state.range(2));
-  const neural::Model model = random_model(
-      {.resolutions = {r}, .width = static_cast<double>(state.range(1)) / 16});
+  const neural::Model model =
+      random_model({.resolutions = {r}, .width = static_cast<double>(state.range(1)) / 16});
   const neural::VoxelDecoder decoder(model);
   const std::vector<float> code(static_cast<std::size_t>(model.network.code_size()), 0.3f);
   reset_peak_memory();

@@ -28,9 +28,10 @@ struct ChildResult {
 };
 
 /// Runs a program to its end, with /dev/null as its input and in a process group of its own, which
-/// ends with this call in any case; when it is ended before its time, so are all its descendants. The first argument is the program, looked for in PATH where it
-/// names no folder. Throws Cancelled, within a tenth of a second, when asked to stop, and
-/// std::system_error where the program cannot be started.
+/// ends with this call in any case; when it is ended before its time, so are all its descendants.
+/// The first argument is the program, looked for in PATH where it names no folder. Throws
+/// Cancelled, within a tenth of a second, when asked to stop, and std::system_error where the
+/// program cannot be started.
 ChildResult run_child(std::vector<std::string> arguments, const ChildOptions& options = {});
 
 }  // namespace fracbench

@@ -25,8 +25,8 @@ Json read_json(const fs::path& file) {
   std::ifstream stream(file);
   Json json = Json::parse(stream, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {
-    throw InputError(fmt::format("{}: is no JSON object; it must look like {}", file.string(),
-                                 kForm));
+    throw InputError(
+        fmt::format("{}: is no JSON object; it must look like {}", file.string(), kForm));
   }
   return json;
 }
@@ -80,8 +80,8 @@ std::vector<fs::path> StoredCollision::files() const {
 std::vector<StoredCollision> read_collision_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    throw InputError(fmt::format("{}: is no folder; it must hold a folder for each collision",
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{}: is no folder; it must hold a folder for each collision", folder.string()));
   }
   std::optional<Json> of_all;
   if (fs::exists(folder / kFile)) of_all = read_json(folder / kFile);
@@ -93,8 +93,8 @@ std::vector<StoredCollision> read_collision_folder(const fs::path& folder) {
   }
   std::ranges::sort(collisions, {}, &StoredCollision::name);
   if (collisions.empty()) {
-    throw InputError(fmt::format("{}: holds no folder; there must be one for each collision",
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{}: holds no folder; there must be one for each collision", folder.string()));
   }
   for (StoredCollision& collision : collisions) {
     const fs::path own = collision.folder / kFile;

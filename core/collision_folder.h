@@ -10,9 +10,9 @@ namespace fracbench {
 
 /// A collision whose fragments some tool has made.
 struct StoredCollision {
-  std::string name;                     ///< of its folder
-  std::filesystem::path folder;         ///< of the fragments
-  std::vector<GivenImpulse> impulses;   ///< strongest first
+  std::string name;                                  ///< of its folder
+  std::filesystem::path folder;                      ///< of the fragments
+  std::vector<GivenImpulse> impulses;                ///< strongest first
   std::vector<std::filesystem::path> files() const;  ///< all that is in the folder, by name
 };
 

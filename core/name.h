@@ -34,8 +34,9 @@ class Name {
     return a == b ? std::strong_ordering::equal : *a.text_ <=> *b.text_;
   }
   template <typename Text>
-    requires(std::convertible_to<const Text&, std::string_view> && !std::same_as<Text, Name>)
-  friend bool operator==(Name a, const Text& text) {
+  requires(std::convertible_to<const Text&, std::string_view> &&
+           !std::same_as<Text, Name>) friend bool
+  operator==(Name a, const Text& text) {
     return std::string_view(*a.text_) == std::string_view(text);
   }
 

@@ -7,7 +7,7 @@ namespace fracbench {
 
 /// A paper, as a BibTeX entry has it.
 struct Publication {
-  std::string key;  ///< such as "hahn2015"
+  std::string key;      ///< such as "hahn2015"
   std::string authors;  ///< given names first, joined by " and "
   std::string title;
   std::string journal;  ///< empty for a preprint, whose `note` says where it is

@@ -54,8 +54,8 @@ class TriangleTree {
     double squared_distance = std::numeric_limits<double>::infinity();
     std::int32_t triangle = -1;  ///< index into triangles()
   };
-  /// The nearest triangle; of equally near ones, that of the lowest face. `start`, a triangle that is
-  /// likely to be near, or -1, only makes it faster.
+  /// The nearest triangle; of equally near ones, that of the lowest face. `start`, a triangle that
+  /// is likely to be near, or -1, only makes it faster.
   Nearest nearest(const Vec3& query, std::int32_t start = -1) const;
 
   /// Queries that are close together, and for each a triangle that is likely to be near it, or -1.

@@ -112,16 +112,22 @@ std::string notes_text(const std::vector<Acceptance>& notes) {
   return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Acceptance accept_summary(const fs::path& baseline, const fs::path& candidate, Acceptance note) {
-  std::vector<Acceptance> notes = read_acceptances(baseline);
-  Results results = read_results(candidate);
-  add_label_agreement(candidate, results);
+/// The note with what there is to say of these results.
+Acceptance note_on(const Results& results, Acceptance note) {
   note.when = utc_now();
   note.suite = results.suite.name;
   note.cells = results.cells.size();
-  notes.push_back(note);
-  write_summary_file(baseline, results, notes);
   return note;
+}
+
+Acceptance accept_summary(const fs::path& baseline, const fs::path& candidate,
+                          const Acceptance& note) {
+  std::vector<Acceptance> notes = read_acceptances(baseline);
+  Results results = read_results(candidate);
+  add_label_agreement(candidate, results);
+  notes.push_back(note_on(results, note));
+  write_summary_file(baseline, results, notes);
+  return notes.back();
 }
 
 }  // namespace
@@ -142,14 +148,15 @@ std::vector<Acceptance> read_acceptances(const fs::path& folder) {
   return notes;
 }
 
-Acceptance accept_baseline(const fs::path& baseline, const fs::path& candidate, Acceptance note) {
+Acceptance accept_baseline(const fs::path& baseline, const fs::path& candidate,
+                           const Acceptance& note) {
   if (note.why.empty() || note.who.empty()) {
     throw InputError(
         "--accept needs a note of why: --why TEXT (and of who, where the system does "
         "not know: --who TEXT)");
   }
   require_complete(candidate);
-  if (names_summary_file(baseline)) return accept_summary(baseline, candidate, std::move(note));
+  if (names_summary_file(baseline)) return accept_summary(baseline, candidate, note);
   if (fs::exists(baseline)) {
     if (fs::equivalent(baseline, candidate)) fail(candidate, "is the baseline itself");
     if (fs::is_symlink(baseline) || !fs::is_directory(baseline) ||
@@ -162,18 +169,14 @@ Acceptance accept_baseline(const fs::path& baseline, const fs::path& candidate, 
     TemporaryCopy copy(baseline);
     copy_results(candidate, copy.path());
     require_complete(copy.path());  // the candidate may have changed meanwhile
-    const Results results = read_results(copy.path());
-    note.when = utc_now();
-    note.suite = results.suite.name;
-    note.cells = results.cells.size();
-    notes.push_back(note);
+    notes.push_back(note_on(read_results(copy.path()), note));
     write_file_atomically(copy.path() / kNotes, notes_text(notes));
     sync(copy.path());
     copy.take_place();
   } catch (const fs::filesystem_error& error) {
     fail(baseline, error.what());
   }
-  return note;
+  return notes.back();
 }
 
 }  // namespace fracbench

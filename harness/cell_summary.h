@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/name.h"
@@ -13,12 +14,12 @@ namespace fracbench {
 
 /// What reports need of one cell: everything in its record but the meshes and the trajectory.
 struct CellSummary {
-  std::string key;     ///< of the record, 64 hexadecimal digits
-  Name method;  ///< name in the registry
-  Name label;   ///< name in the suite; the same as `method` unless the suite says otherwise
+  std::string key;      ///< of the record, 64 hexadecimal digits
+  Name method;          ///< name in the registry
+  Name label;           ///< name in the suite; the same as `method` unless the suite says otherwise
   Name method_options;  ///< JSON, defaults included
   Name shape;
-  Name family;    ///< of the scenario
+  Name family;           ///< of the scenario
   std::string scenario;  ///< unique within its family
   int repeat = 0;
   std::uint64_t seed = 0;  ///< of the method; methods that meet the same impact differ in it
@@ -40,5 +41,12 @@ struct CellSummary {
   int breaks = 0;  ///< how many bodies broke, the target included
   Name cpu;
 };
+
+/// What all methods meet together: a shape, the family and name of a scene, and a repeat of it.
+using Collision = std::tuple<std::string, std::string, std::string, int>;
+
+inline Collision collision_of(const CellSummary& cell) {
+  return {cell.shape, cell.family, cell.scenario, cell.repeat};
+}
 
 }  // namespace fracbench

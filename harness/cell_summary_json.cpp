@@ -10,12 +10,14 @@ using Json = nlohmann::ordered_json;
 
 Name name_from_json(const Json& json) { return json.get_ref<const std::string&>(); }
 
-}
+}  // namespace
 
 Json to_json(const CellSummary& cell) {
   Json values = Json::array(), series = Json::array(), stages = Json::array();
-  for (const MetricValue& v : cell.values) values.push_back({v.name.text(), v.value, v.unit.text()});
-  for (const MetricSeries& s : cell.series) series.push_back({s.name.text(), s.values, s.unit.text()});
+  for (const MetricValue& v : cell.values)
+    values.push_back({v.name.text(), v.value, v.unit.text()});
+  for (const MetricSeries& s : cell.series)
+    series.push_back({s.name.text(), s.values, s.unit.text()});
   for (const StageTime& stage : cell.stages) stages.push_back({stage.name.text(), stage.seconds});
   return {{"key", cell.key},
           {"method", cell.method.text()},
@@ -65,8 +67,10 @@ CellSummary cell_summary_from_json(const Json& json) {
   cell.values.reserve(json.at("values").size());
   cell.series.reserve(json.at("series").size());
   cell.stages.reserve(json.at("stages").size());
-  for (const Json& v : json.at("values")) cell.values.push_back({name_from_json(v.at(0)), v.at(1), name_from_json(v.at(2))});
-  for (const Json& s : json.at("series")) cell.series.push_back({name_from_json(s.at(0)), s.at(1), name_from_json(s.at(2))});
+  for (const Json& v : json.at("values"))
+    cell.values.push_back({name_from_json(v.at(0)), v.at(1), name_from_json(v.at(2))});
+  for (const Json& s : json.at("series"))
+    cell.series.push_back({name_from_json(s.at(0)), s.at(1), name_from_json(s.at(2))});
   for (const Json& s : json.at("stages")) cell.stages.push_back({name_from_json(s.at(0)), s.at(1)});
   return cell;
 }

@@ -195,15 +195,14 @@ Comparison compare_folders(const std::filesystem::path& baseline,
                            const std::filesystem::path& candidate, const std::vector<Gate>& gates) {
   const bool summary = names_summary_file(baseline);
   if (!std::filesystem::exists(summary ? baseline : baseline / "suite.json")) {
-    return not_comparable(
-        "no-baseline",
-        {fmt::format("{}: there is no baseline; make the candidate the first one "
-                     "with fracbench compare {} {} --accept --why TEXT",
-                     baseline.string(), baseline.string(), candidate.string())});
+    return not_comparable("no-baseline",
+                          {fmt::format("{}: there is no baseline; make the candidate the first one "
+                                       "with fracbench compare {} {} --accept --why TEXT",
+                                       baseline.string(), baseline.string(), candidate.string())});
   }
   // What has to be computed from meshes is read only where it is asked for.
-  const bool agreement = std::ranges::any_of(
-      gates, [](const Gate& gate) { return gate.metric == kLabelAgreement; });
+  const bool agreement =
+      std::ranges::any_of(gates, [](const Gate& gate) { return gate.metric == kLabelAgreement; });
   const auto read = [&](const std::filesystem::path& folder) {
     Results results = read_results(folder);
     if (agreement) add_label_agreement(folder, results);

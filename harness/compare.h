@@ -62,8 +62,9 @@ struct Comparison {
 Comparison compare_results(const Results& baseline, const Results& candidate,
                            const std::vector<Gate>& gates);
 
-/// Reads both first, the baseline from a results folder or a summary file; a baseline that is missing or belongs to another suite is a verdict.
-/// Throws InputError where the candidate is no results folder.
+/// Reads both first, the baseline from a results folder or a summary file; a baseline that is
+/// missing or belongs to another suite is a verdict. Throws InputError where the candidate is no
+/// results folder.
 Comparison compare_folders(const std::filesystem::path& baseline,
                            const std::filesystem::path& candidate, const std::vector<Gate>& gates);
 

@@ -305,8 +305,8 @@ double peak_mb() {
 }
 
 CheckResult check_memory(const Bench& bench) {
-  constexpr int kFirst = 3, kBlows = 8;     // the first ones fill what is kept on purpose
-  constexpr double kLeak = 64 * 1024;       // bytes a blow
+  constexpr int kFirst = 3, kBlows = 8;  // the first ones fill what is kept on purpose
+  constexpr double kLeak = 64 * 1024;    // bytes a blow
   const auto body = bench.prepare();
   double before = 0;
   for (int n = 0; n < kBlows; ++n) {

@@ -32,7 +32,7 @@ struct CheckSubject {
   const Method& method;
   Options options;
   const Target& target;
-  double impulse = 2e5;  ///< of the blows, N s
+  double impulse = 2e5;     ///< of the blows, N s
   double memory_mb = 4000;  ///< MiB that preparing and breaking the body may take
   int threads = 1;
 };

@@ -27,10 +27,10 @@ struct Gate {
   std::string metric;  ///< of docs/metrics.md; "stage_*" stands for every stage
   GateTest test = GateTest::mean;
   std::string method = {};  ///< label in the suite; empty: each
-  /// Label of a method whose value for the same collision of the same run the values are divided by,
-  /// which makes times of different machines comparable; empty: none.
+  /// Label of a method whose value for the same collision of the same run the values are divided
+  /// by, which makes times of different machines comparable; empty: none.
   std::string relative_to = {};
-  std::string shape = {};   ///< label in the suite; empty: all together
+  std::string shape = {};  ///< label in the suite; empty: all together
   Tail direction = Tail::both;
   /// Smallest change that matters: candidate / baseline where `relative`, else the difference of
   /// means, or the distance of distributions, in the metric's unit.

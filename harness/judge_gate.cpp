@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "core/random.h"
 #include "metrics/cluster_bootstrap.h"
@@ -296,21 +295,17 @@ bool exceeds(const GateResult& result) {
 /// Leaves only those of `used` for which `label` broke the same collision, too; returns its cells.
 std::vector<CellPair> keep_those_of(const std::string& label, const std::vector<CellPair>& pairs,
                                     std::vector<CellPair>& used) {
-  using Place = std::tuple<std::string, std::string, std::string, int>;
-  const auto place = [](const CellSummary& c) {
-    return Place(c.shape, c.family, c.scenario, c.repeat);
-  };
-  std::map<Place, CellPair> of_label;
+  std::map<Collision, CellPair> of_label;
   for (const CellPair& pair : pairs) {
     if (pair.baseline->label == label && pair.baseline->status == CellStatus::ok &&
         pair.candidate->status == CellStatus::ok) {
-      of_label.emplace(place(*pair.baseline), pair);
+      of_label.emplace(collision_of(*pair.baseline), pair);
     }
   }
-  std::erase_if(used,
-                [&](const CellPair& pair) { return !of_label.contains(place(*pair.baseline)); });
+  std::erase_if(
+      used, [&](const CellPair& pair) { return !of_label.contains(collision_of(*pair.baseline)); });
   std::vector<CellPair> others;
-  for (const CellPair& pair : used) others.push_back(of_label.at(place(*pair.baseline)));
+  for (const CellPair& pair : used) others.push_back(of_label.at(collision_of(*pair.baseline)));
   return others;
 }
 

@@ -46,9 +46,8 @@ std::vector<std::string> learning_shapes(const Suite& suite,
   };
   const std::vector<std::string>& covered = suite.learning->shapes;
   const auto learned_with = [&](const std::string& label) {
-    return std::ranges::any_of(suite.methods, [&](const SuiteMethod& method) {
-      return names(method.learn_with, label);
-    });
+    return std::ranges::any_of(
+        suite.methods, [&](const SuiteMethod& method) { return names(method.learn_with, label); });
   };
   for (const SuiteShape& shape : suite.shapes) {
     if (!covered.empty() && !names(covered, shape.label)) continue;

@@ -145,7 +145,8 @@ Fragments get_fragments(const DataTree& tree, const std::string& prefix) {
 }
 
 void put_impacts(DataTree& tree, const std::string& prefix, const std::vector<Impact>& impacts) {
-  Reals time, time_step, body, break_test, overload, point, direction, magnitude, normal, area, striker;
+  Reals time, time_step, body, break_test, overload, point, direction, magnitude, normal, area,
+      striker;
   Integers fragment, face;
   Starts start = {0};
   for (const Impact& impact : impacts) {
@@ -197,8 +198,8 @@ std::vector<Impact> get_impacts(const DataTree& tree, const std::string& prefix)
   const Reals body = tree.reals(prefix + "/body", 13);
   const Reals break_test = tree.reals(prefix + "/break_test", 4);
   // Records of earlier programs lack it.
-  const Reals overload = tree.has(prefix + "/overload") ? tree.reals(prefix + "/overload")
-                                                        : Reals(time.size(), 0.0);
+  const Reals overload =
+      tree.has(prefix + "/overload") ? tree.reals(prefix + "/overload") : Reals(time.size(), 0.0);
   const Reals point = tree.reals(prefix + "/impulse_point", 3);
   const Reals direction = tree.reals(prefix + "/impulse_direction", 3);
   const Reals magnitude = tree.reals(prefix + "/impulse_magnitude");
@@ -210,9 +211,9 @@ std::vector<Impact> get_impacts(const DataTree& tree, const std::string& prefix)
   const std::size_t n = time.size();
   const std::size_t m = magnitude.size();
   require(time_step.size() == n && fragment.size() == n && body.size() == 13 * n &&
-              break_test.size() == 4 * n && overload.size() == n && start.size() == n + 1 && point.size() == 3 * m &&
-              direction.size() == 3 * m && face.size() == m && normal.size() == 3 * m &&
-              area.size() == m && striker.size() == 7 * m,
+              break_test.size() == 4 * n && overload.size() == n && start.size() == n + 1 &&
+              point.size() == 3 * m && direction.size() == 3 * m && face.size() == m &&
+              normal.size() == 3 * m && area.size() == m && striker.size() == 7 * m,
           prefix);
   std::vector<Impact> impacts(n);
   for (std::size_t k = 0; k < n; ++k) {

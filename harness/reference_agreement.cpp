@@ -2,7 +2,6 @@
 
 #include <map>
 #include <mutex>
-#include <tuple>
 
 #include "core/parallel.h"
 #include "geometry/fragment_labels.h"
@@ -11,13 +10,6 @@
 namespace fracbench {
 
 namespace {
-
-/// Shape, then the impact.
-using Impacted = std::tuple<std::string, std::string, std::string, int>;
-
-Impacted impact_of(const CellSummary& cell) {
-  return {cell.shape, cell.family, cell.scenario, cell.repeat};
-}
 
 /// One fracture, ready to be compared.
 struct Fracture {
@@ -67,22 +59,22 @@ std::vector<ReferenceAgreement> agreement_with_reference(const std::filesystem::
                                                          const std::vector<CellSummary>& cells,
                                                          const AgreementOptions& options) {
   Reader read(folder, options);
-  std::map<Impacted, std::optional<Fracture>> reference;
+  std::map<Collision, std::optional<Fracture>> reference;
   std::vector<const CellSummary*> broken;
   for (const CellSummary& cell : cells) {
     if (cell.status != CellStatus::ok) continue;
     broken.push_back(&cell);
-    if (cell.label == options.reference) reference.try_emplace(impact_of(cell));
+    if (cell.label == options.reference) reference.try_emplace(collision_of(cell));
   }
   parallel_for(broken.size(), options.threads, [&](std::size_t i) {
     if (broken[i]->label == options.reference) {
-      reference.at(impact_of(*broken[i])) = read(*broken[i]);
+      reference.at(collision_of(*broken[i])) = read(*broken[i]);
     }
   });
   std::vector<std::optional<ReferenceAgreement>> found(broken.size());
   parallel_for(broken.size(), options.threads, [&](std::size_t i) {
     const CellSummary& cell = *broken[i];
-    const auto same = reference.find(impact_of(cell));
+    const auto same = reference.find(collision_of(cell));
     if (same == reference.end()) return;
     if (cell.label != options.reference) {
       found[i] = compare(cell, false, *same->second, read(cell));

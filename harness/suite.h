@@ -86,7 +86,7 @@ struct Suite {
   int threads_per_cell = 1;  ///< part of what determines a result, see docs/records.md
   /// On which methods that can use one compute: "cpu" or "cuda". Part of what determines a result.
   std::string device = std::string(kProcessor);
-  int warm_up = 0;           ///< runs that are thrown away after a body was prepared
+  int warm_up = 0;  ///< runs that are thrown away after a body was prepared
   /// Where files that the suite names are looked for first. No part of the suite's identity, so
   /// that it is the same suite wherever it lies and from wherever it is run.
   std::filesystem::path folder;

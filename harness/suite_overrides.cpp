@@ -18,9 +18,8 @@ constexpr std::string_view kWhere = "--set";
 
 const std::vector<std::string>& suite_keys() {
   static const std::vector<std::string> keys = {
-      "seed",      "repeats",   "threads_per_cell",  "warm_up", "device",
-      "timeout_s", "memory_mb", "prepare_timeout_s", "method",  "scenario",
-      "shape",     "learning"};
+      "seed",      "repeats",           "threads_per_cell", "warm_up",  "device", "timeout_s",
+      "memory_mb", "prepare_timeout_s", "method",           "scenario", "shape",  "learning"};
   return keys;
 }
 

@@ -168,8 +168,8 @@ void SummaryCache::append(const std::string& lines) {
     file_ = folder_ / fmt::format("{:08x}{:08x}{}", device(), device(), kEnding);
   }
   const int file = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  writable_ = file >= 0 && ::write(file, lines.data(), lines.size()) ==
-                               static_cast<ssize_t>(lines.size());
+  writable_ =
+      file >= 0 && ::write(file, lines.data(), lines.size()) == static_cast<ssize_t>(lines.size());
   if (file >= 0) ::close(file);
 }
 

@@ -46,9 +46,10 @@ void write_summary_file(const std::filesystem::path& file, const Results& result
     cells += to_json(cell).dump();
   }
   write_file_atomically(
-      file, fmt::format("{{\"format\": \"{}\", \"version\": {}, \"digest\": \"{}\",\n"
-                        "\"accepted\": {},\n\"suite\": {},\n\"cells\": [\n{}\n]}}\n",
-                        kFormat, kVersion, digest_of(suite, cells), notes.dump(), suite.dump(), cells));
+      file,
+      fmt::format("{{\"format\": \"{}\", \"version\": {}, \"digest\": \"{}\",\n"
+                  "\"accepted\": {},\n\"suite\": {},\n\"cells\": [\n{}\n]}}\n",
+                  kFormat, kVersion, digest_of(suite, cells), notes.dump(), suite.dump(), cells));
 }
 
 SummaryFile read_summary_file(const std::filesystem::path& file) {
@@ -86,8 +87,8 @@ SummaryFile read_summary_file(const std::filesystem::path& file) {
   } catch (const nlohmann::json::exception&) {
   } catch (const std::bad_optional_access&) {
   }
-  throw InputError(fmt::format("{}: is damaged; restore it, or accept a new baseline",
-                               file.string()));
+  throw InputError(
+      fmt::format("{}: is damaged; restore it, or accept a new baseline", file.string()));
 }
 
 }  // namespace fracbench

@@ -77,8 +77,8 @@ std::vector<std::unique_ptr<Method>> registered() {
 
 const std::vector<std::unique_ptr<Method>>& methods() {
   static const std::vector<std::unique_ptr<Method>> list = registered<  //
-      CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod,
-      ExternalMethod, PluginMethod, ImportMethod  //
+      CvdMethod, BemMethod, ModesMethod, DeepFractureMethod, NearestPatternMethod, ExternalMethod,
+      PluginMethod, ImportMethod  //
       >();
   return list;
 }

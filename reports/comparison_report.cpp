@@ -124,7 +124,8 @@ struct TestCase {
 std::vector<TestCase> test_cases(const Comparison& comparison) {
   const auto joined = [](const std::vector<std::string>& lines) {
     std::string text;
-    for (const std::string& line : lines) text += fmt::format("{}{}", text.empty() ? "" : "\n", line);
+    for (const std::string& line : lines)
+      text += fmt::format("{}{}", text.empty() ? "" : "\n", line);
     return text;
   };
   std::vector<TestCase> cases = {

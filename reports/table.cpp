@@ -136,16 +136,17 @@ std::string csv_rows(const Table& table) {
     std::vector<std::string> fields;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::size_t end = fields.size() + (wide[c] ? 3 : 1);
-      std::visit(Overloaded{[&](std::monostate) {},
-                            [&](const std::string& text) { fields.push_back(text); },
-                            [&](std::int64_t number) { fields.push_back(fmt::format("{}", number)); },
-                            [&](double number) { fields.push_back(fmt::format("{}", number)); },
-                            [&](const Estimate& e) {
-                              for (const double number : {e.value, e.low, e.high}) {
-                                fields.push_back(fmt::format("{}", number));
-                              }
-                            }},
-                 row[c]);
+      std::visit(
+          Overloaded{[&](std::monostate) {},
+                     [&](const std::string& text) { fields.push_back(text); },
+                     [&](std::int64_t number) { fields.push_back(fmt::format("{}", number)); },
+                     [&](double number) { fields.push_back(fmt::format("{}", number)); },
+                     [&](const Estimate& e) {
+                       for (const double number : {e.value, e.low, e.high}) {
+                         fields.push_back(fmt::format("{}", number));
+                       }
+                     }},
+          row[c]);
       fields.resize(end);
     }
     result += csv_line(fields);

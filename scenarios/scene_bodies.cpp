@@ -159,8 +159,7 @@ std::optional<Impact> SceneBodies::impact_on(int solid, const std::vector<BodyCo
   impact.time_step = scenario_.time_step;
   impact.break_test = break_test_values(captured.impulses, captured.strikers, captured.speeds,
                                         struck.rigid.material, scenario_.time_step);
-  impact.overload =
-      overload(scenario_.break_test, impact.break_test, struck.rigid.material);
+  impact.overload = overload(scenario_.break_test, impact.break_test, struck.rigid.material);
   impact.fragment = struck.fragment.piece;
   impact.impulses = std::move(captured.impulses);
   impact.strikers = std::move(captured.strikers);

@@ -44,18 +44,20 @@ CheckResult check_here(const CheckArguments& a, const std::string& shape, const 
         "{}: it learns first; give it what it learned, such as --set model=FILE", a.method));
   }
   const Target target{.name = shape, .mesh = load_shape({.name = shape}).mesh, .material = {}};
-  return make_check(name,
-                    {.method = method, .options = options, .target = target,
-                     .impulse = a.impulse, .memory_mb = a.memory_mb});
+  return make_check(name, {.method = method,
+                           .options = options,
+                           .target = target,
+                           .impulse = a.impulse,
+                           .memory_mb = a.memory_mb});
 }
 
 /// The call of this program that makes one check.
 std::vector<std::string> call_of(const CheckArguments& a, const std::string& shape,
                                  const std::string& name) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  std::vector<std::string> call{self,       "check",     a.method,
-                                "--shapes", shape,       "--only",
-                                name,       "--impulse", fmt::format("{}", a.impulse),
+  std::vector<std::string> call{self,       "check",       a.method,
+                                "--shapes", shape,         "--only",
+                                name,       "--impulse",   fmt::format("{}", a.impulse),
                                 "--inside", "--memory-mb", fmt::format("{}", a.memory_mb)};
   for (const std::string& setting : a.settings) {
     call.emplace_back("--set");

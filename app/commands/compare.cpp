@@ -85,13 +85,18 @@ void add_compare_command(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand(
       "compare", "Judges results against a baseline: exit code 3 for a regression");
   auto a = std::make_shared<CompareArguments>();
-  command->add_option("baseline", a->baseline, "Results folder to compare with, or their summary FILE.json")->required();
+  command
+      ->add_option("baseline", a->baseline,
+                   "Results folder to compare with, or their summary FILE.json")
+      ->required();
   command->add_option("candidate", a->candidate, "Results folder to judge")->required();
   command->add_option("--gates", a->gates, "TOML file that says what must not change [built in]");
   command->add_flag("--json", a->json, "Print one JSON object");
   command->add_option("--junit", a->junit, "Write the verdict as JUnit XML");
   command->add_option("--markdown", a->markdown, "Write the verdict as Markdown");
-  command->add_flag("--accept", a->accept, "Make the candidate the new baseline: a copy, or with FILE.json a summary of it");
+  command->add_flag(
+      "--accept", a->accept,
+      "Make the candidate the new baseline: a copy, or with FILE.json a summary of it");
   command->add_option("--why", a->why, "Note of --accept: why the baseline changes");
   command->add_option("--who", a->who, "Note of --accept: who decided it [the user's name]");
   command->callback([&chosen, a] { chosen = [a](std::stop_token) { return compare(*a); }; });

@@ -52,8 +52,9 @@ Json disk() {
 }
 
 Json device() {
-  return finding("device", true,
-                 "cpu; run, prepare and fracbench-train take --device cuda where libtorch has CUDA");
+  return finding(
+      "device", true,
+      "cpu; run, prepare and fracbench-train take --device cuda where libtorch has CUDA");
 }
 
 Json trainer() {

@@ -8,7 +8,6 @@
 
 #include "app/command.h"
 #include "app/fragment_folder.h"
-#include "scenarios/fragments_of_pieces.h"
 #include "app/result_json.h"
 #include "app/shape_frame.h"
 #include "core/error.h"
@@ -16,6 +15,7 @@
 #include "core/stage_timer.h"
 #include "geometry/partition_by_labels.h"
 #include "geometry/read_label_volume.h"
+#include "scenarios/fragments_of_pieces.h"
 #include "scenarios/shapes.h"
 
 namespace fracbench {

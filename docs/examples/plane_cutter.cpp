@@ -132,10 +132,9 @@ extern "C" void fracbench_plugin_fracture(void* prepared, const fracbench_impact
     }
     const Mesh part = half(body, heights);
     if (part.faces.empty()) continue;
-    const fracbench_mesh fragment{static_cast<std::int64_t>(part.vertices.size()),
-                                  part.vertices.data()->data(),
-                                  static_cast<std::int64_t>(part.faces.size()),
-                                  part.faces.data()->data()};
+    const fracbench_mesh fragment{
+        static_cast<std::int64_t>(part.vertices.size()), part.vertices.data()->data(),
+        static_cast<std::int64_t>(part.faces.size()), part.faces.data()->data()};
     host->add_fragment(host->handle, &fragment);
   }
 }

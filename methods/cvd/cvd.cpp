@@ -162,22 +162,21 @@ MethodInfo CvdMethod::info() const {
   MethodInfo info;
   info.name = "cvd";
   info.summary = "centroidal Voronoi cells around the impact, cut exactly by the body's mesh";
-  info.publications = {
-      {.key = "du1999",
-       .authors = "Qiang Du and Vance Faber and Max Gunzburger",
-       .title = "Centroidal Voronoi tessellations: applications and algorithms",
-       .journal = "SIAM Review",
-       .volume = "41",
-       .number = "4",
-       .year = 1999,
-       .doi = "10.1137/S0036144599352836"},
-      {.key = "rycroft2009",
-       .authors = "Chris H. Rycroft",
-       .title = "VORO++: A three-dimensional Voronoi cell library in C++",
-       .journal = "Chaos",
-       .volume = "19",
-       .year = 2009,
-       .doi = "10.1063/1.3215722"}};
+  info.publications = {{.key = "du1999",
+                        .authors = "Qiang Du and Vance Faber and Max Gunzburger",
+                        .title = "Centroidal Voronoi tessellations: applications and algorithms",
+                        .journal = "SIAM Review",
+                        .volume = "41",
+                        .number = "4",
+                        .year = 1999,
+                        .doi = "10.1137/S0036144599352836"},
+                       {.key = "rycroft2009",
+                        .authors = "Chris H. Rycroft",
+                        .title = "VORO++: A three-dimensional Voronoi cell library in C++",
+                        .journal = "Chaos",
+                        .volume = "19",
+                        .year = 2009,
+                        .doi = "10.1063/1.3215722"}};
   info.shape_type = "Voronoi";
   info.random = true;
   info.quick_to_prepare = true;

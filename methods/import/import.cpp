@@ -33,9 +33,7 @@ constexpr double kBoxTolerance = 0.02;  // of the longest side
 class ImportedBody : public Breakable {
  public:
   ImportedBody(const Target& target, std::vector<StoredCollision> collisions)
-      : body_(target.mesh),
-        box_(bounding_box(target.mesh)),
-        collisions_(std::move(collisions)) {}
+      : body_(target.mesh), box_(bounding_box(target.mesh)), collisions_(std::move(collisions)) {}
 
   std::vector<Piece> fracture(const Impact& impact, Context& context) const override {
     const StoredCollision& collision = collision_of(impact);
@@ -63,15 +61,14 @@ class ImportedBody : public Breakable {
   const StoredCollision& collision_of(const Impact& impact) const {
     const double size = box_.longest_side();
     for (const StoredCollision& collision : collisions_) {
-      if (std::ranges::equal(collision.impulses, impact.impulses,
-                             [&](const GivenImpulse& given, const Impulse& impulse) {
-                               return (given.point - impulse.point).norm() <=
-                                          kPlaceTolerance * size &&
-                                      (given.direction - impulse.direction).norm() <=
-                                          kDirectionTolerance &&
-                                      std::abs(given.magnitude - impulse.magnitude) <=
-                                          kMagnitudeTolerance * given.magnitude;
-                             })) {
+      if (std::ranges::equal(
+              collision.impulses, impact.impulses,
+              [&](const GivenImpulse& given, const Impulse& impulse) {
+                return (given.point - impulse.point).norm() <= kPlaceTolerance * size &&
+                       (given.direction - impulse.direction).norm() <= kDirectionTolerance &&
+                       std::abs(given.magnitude - impulse.magnitude) <=
+                           kMagnitudeTolerance * given.magnitude;
+              })) {
         return collision;
       }
     }

@@ -48,8 +48,8 @@ class Model {
   CellFaces faces_;
 };
 
-/// Writes `model.fracbench` below a folder (see core/array_file.h; the names are those of the members).
-/// Throws InputError.
+/// Writes `model.fracbench` below a folder (see core/array_file.h; the names are those of the
+/// members). Throws InputError.
 void save_model(const std::filesystem::path& folder, const Model& model);
 
 /// Reads what save_model wrote for the same target and settings. Throws InputError where that is

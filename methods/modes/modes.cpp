@@ -110,16 +110,16 @@ MethodInfo ModesMethod::info() const {
   MethodInfo info;
   info.name = "modes";
   info.summary = "fracture modes: worst-case pre-fracture, projected on by impacts in milliseconds";
-  info.publications = {
-      {.key = "sellan2023",
-       .authors = "Silvia Sellán and Jack Luong and Leticia Mattos Da Silva and Aravind "
-                  "Ramakrishnan and Yuchuan Yang and Alec Jacobson",
-       .title = "Breaking Good: Fracture Modes for Realtime Destruction",
-       .journal = "ACM Transactions on Graphics",
-       .volume = "42",
-       .number = "1",
-       .year = 2023,
-       .doi = "10.1145/3549540"}};
+  info.publications = {{.key = "sellan2023",
+                        .authors =
+                            "Silvia Sellán and Jack Luong and Leticia Mattos Da Silva and Aravind "
+                            "Ramakrishnan and Yuchuan Yang and Alec Jacobson",
+                        .title = "Breaking Good: Fracture Modes for Realtime Destruction",
+                        .journal = "ACM Transactions on Graphics",
+                        .volume = "42",
+                        .number = "1",
+                        .year = 2023,
+                        .doi = "10.1145/3549540"}};
   info.shape_type = "cutting";
   info.refracture = true;
   return info;
@@ -191,8 +191,9 @@ OptionsSchema ModesMethod::options() const {
       {.name = "threshold",
        .fallback = std::string("calibrated"),
        .unit = "",
-       .summary = "when pieces part: calibrated: breaks where the scene's break test does; raw: at a "
-                  "difference of velocity of raw_threshold",
+       .summary =
+           "when pieces part: calibrated: breaks where the scene's break test does; raw: at a "
+           "difference of velocity of raw_threshold",
        .choices = {"calibrated", "raw"}},
       {.name = "raw_threshold",
        .fallback = 0.02,

@@ -22,8 +22,8 @@ struct SparseCholesky::State {
     common.method[0].ordering = CHOLMOD_METIS;
     common.postorder = 1;
     common.final_ll = 1;
-    // Supernodes pay for large fill only: solutions with the small ones of tet meshes take ten times
-    // as long through the BLAS.
+    // Supernodes pay for large fill only: solutions with the small ones of tet meshes take ten
+    // times as long through the BLAS.
     common.supernodal = CHOLMOD_AUTO;
     common.supernodal_switch = 400;
   }

@@ -1,6 +1,6 @@
-/* What a fracture method in a shared library exports, for the method `plugin` (docs/add-a-method.md).
- * Plain C, so that any language that can make a shared library will do. Lengths in m, masses in kg,
- * times in s, everything in the body's own frame. */
+/* What a fracture method in a shared library exports, for the method `plugin`
+ * (docs/add-a-method.md). Plain C, so that any language that can make a shared library will do.
+ * Lengths in m, masses in kg, times in s, everything in the body's own frame. */
 #ifndef FRACBENCH_PLUGIN_H
 #define FRACBENCH_PLUGIN_H
 

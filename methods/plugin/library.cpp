@@ -37,8 +37,8 @@ Library::Library(const std::filesystem::path& file) {
     }
     prepare =
         function_in<decltype(fracbench_plugin_prepare)>(handle_, "fracbench_plugin_prepare", file);
-    fracture = function_in<decltype(fracbench_plugin_fracture)>(
-        handle_, "fracbench_plugin_fracture", file);
+    fracture = function_in<decltype(fracbench_plugin_fracture)>(handle_,
+                                                                "fracbench_plugin_fracture", file);
     release =
         function_in<decltype(fracbench_plugin_release)>(handle_, "fracbench_plugin_release", file);
   } catch (...) {

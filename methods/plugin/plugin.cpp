@@ -27,22 +27,23 @@ class Call {
   explicit Call(Context& context) : context_(context) {}
 
   fracbench_host host() {
-    return {.handle = this,
-            .add_fragment =
-                [](void* handle, const fracbench_mesh* mesh) {
-                  self(handle).guarded([&] { self(handle).add(mesh); });
-                },
-            .fail =
-                [](void* handle, const char* why) {
-                  self(handle).guarded([&] { self(handle).fail(why ? why : "no reason given"); });
-                },
-            .progress =
-                [](void* handle, double share) {
-                  self(handle).guarded([&] { self(handle).context_.progress.update("plugin", share); });
-                },
-            .stopped = [](void* handle) -> int {
-              return self(handle).context_.stop.stop_requested() ? 1 : 0;
-            }};
+    return {
+        .handle = this,
+        .add_fragment =
+            [](void* handle, const fracbench_mesh* mesh) {
+              self(handle).guarded([&] { self(handle).add(mesh); });
+            },
+        .fail =
+            [](void* handle, const char* why) {
+              self(handle).guarded([&] { self(handle).fail(why ? why : "no reason given"); });
+            },
+        .progress =
+            [](void* handle, double share) {
+              self(handle).guarded([&] { self(handle).context_.progress.update("plugin", share); });
+            },
+        .stopped = [](void* handle) -> int {
+          return self(handle).context_.stop.stop_requested() ? 1 : 0;
+        }};
   }
 
   /// What was added. Throws Cancelled or MethodFailure.

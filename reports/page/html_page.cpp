@@ -84,9 +84,10 @@ std::string section_html(const NamedSection& named, const PageOptions& options) 
   }
   for (const Table& table : named.section.tables) html += table_html(table);
   if (!options.commands.empty()) {
-    html += fmt::format("<details><summary>Make this section again</summary><pre>{}</pre></details>\n",
-                        escape_markup(fmt::format("{}\n{} --items {}", options.commands.front(),
-                                                  options.commands.back(), named.item.name)));
+    html +=
+        fmt::format("<details><summary>Make this section again</summary><pre>{}</pre></details>\n",
+                    escape_markup(fmt::format("{}\n{} --items {}", options.commands.front(),
+                                              options.commands.back(), named.item.name)));
   }
   return html + "</section>\n";
 }
@@ -103,7 +104,8 @@ std::map<std::string, double> agreements_by_cell(const ReportInput& input) {
   }
   std::map<std::string, double> result;
   for (const CellSummary& cell : input.cells) {
-    const auto found = by_place.find({cell.shape, cell.family, cell.scenario, cell.repeat, cell.label});
+    const auto found =
+        by_place.find({cell.shape, cell.family, cell.scenario, cell.repeat, cell.label});
     if (found != by_place.end()) result[cell.key] = found->second;
   }
   return result;
@@ -115,7 +117,8 @@ std::string cells_html(const ReportInput& input, const PageOptions& options) {
   if (options.cells > input.cells.size()) {
     html += fmt::format(
         "<p>The first collisions of each shape: {} of {} cells, here and in the viewer. Tables and "
-        "figures are of all cells; <code>fracbench report --cells {}</code> shows all of them, in a "
+        "figures are of all cells; <code>fracbench report --cells {}</code> shows all of them, in "
+        "a "
         "larger page.</p>\n",
         input.cells.size(), options.cells, options.cells);
   }

@@ -22,8 +22,9 @@ struct PageOptions {
   std::vector<std::string> commands = {};  ///< that make the results and this report
 };
 
-/// index.html: the sections with their tables and figures, a table of the input's cells, the viewer's place
-/// and the provenance. Everything can be read without a script, and nothing comes from a network.
+/// index.html: the sections with their tables and figures, a table of the input's cells, the
+/// viewer's place and the provenance. Everything can be read without a script, and nothing comes
+/// from a network.
 std::string html_page(const ReportInput& input, const std::vector<NamedSection>& sections,
                       const PageOptions& options);
 

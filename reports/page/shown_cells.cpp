@@ -4,19 +4,8 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 
 namespace fracbench {
-
-namespace {
-
-using Collision = std::tuple<std::string, std::string, std::string, int>;
-
-Collision collision_of(const CellSummary& cell) {
-  return {cell.shape, cell.family, cell.scenario, cell.repeat};
-}
-
-}  // namespace
 
 std::vector<CellSummary> shown_cells(const std::vector<CellSummary>& cells, std::size_t most) {
   if (cells.size() <= most) return cells;

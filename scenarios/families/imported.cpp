@@ -46,15 +46,15 @@ std::vector<Scenario> ImportedFamily::scenes(const Options& options, std::string
   for (const StoredCollision& collision : read_collision_folder(options.text("path"))) {
     if (limit > 0 && scenes.size() == limit) break;
     // What happens after the break is not known: pieces stay where they are.
-    scenes.push_back({.name = collision.name,
-                      .family = "imported",
-                      .balls = {},
-                      .impulses = collision.impulses,
-                      .material = material_from(options),
-                      .break_test = break_test_from(options.text("break_test"),
-                                                    "option 'break_test'"),
-                      .frames = 1,
-                      .refracture = false});
+    scenes.push_back(
+        {.name = collision.name,
+         .family = "imported",
+         .balls = {},
+         .impulses = collision.impulses,
+         .material = material_from(options),
+         .break_test = break_test_from(options.text("break_test"), "option 'break_test'"),
+         .frames = 1,
+         .refracture = false});
   }
   return scenes;
 }

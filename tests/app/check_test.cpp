@@ -129,8 +129,8 @@ TEST_P(BuiltIn, Conforms) {
   EXPECT_THAT(answer.output, HasSubstr("conforms"));
 }
 
-const auto kShapes = testing::Values("bar", "pot", "mug", "A", "chair", "plinth", "sphere", "cube",
-                                     "bunny");
+const auto kShapes =
+    testing::Values("bar", "pot", "mug", "A", "chair", "plinth", "sphere", "cube", "bunny");
 INSTANTIATE_TEST_SUITE_P(Cvd, BuiltIn, testing::Combine(testing::Values("cvd"), kShapes));
 INSTANTIATE_TEST_SUITE_P(Modes, BuiltIn,
                          testing::Combine(testing::Values("modes --set modes=3 "

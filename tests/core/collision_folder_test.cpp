@@ -68,9 +68,9 @@ TEST_F(CollisionFolder, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(error_of(R"({"impulses": []})").find("no impulses"), std::string::npos);
   EXPECT_NE(error_of(R"({"impulses": [7]})").find("impulse 0"), std::string::npos);
   EXPECT_NE(error_of(R"({"impulses": [{"point": [1, 2]}]})").find("'point'"), std::string::npos);
-  EXPECT_NE(
-      error_of(R"({"impulses": [{"point": [1, 2, 3], "direction": [1, 0, "x"]}]})").find("'direction'"),
-      std::string::npos);
+  EXPECT_NE(error_of(R"({"impulses": [{"point": [1, 2, 3], "direction": [1, 0, "x"]}]})")
+                .find("'direction'"),
+            std::string::npos);
   EXPECT_NE(error_of(R"({"impulses": [{"point": [1, 2, 3], "direction": [1, 0, 0]}]})")
                 .find("'magnitude'"),
             std::string::npos);

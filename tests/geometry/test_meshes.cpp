@@ -1,10 +1,11 @@
-#include "source_folder.h"
 #include "tests/geometry/test_meshes.h"
 
 #include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include "source_folder.h"
 
 namespace fracbench::test_meshes {
 

@@ -122,11 +122,10 @@ TEST(Conformance, FindsMemoryThatIsNotGivenBackAndTooMuchOfIt) {
   EXPECT_NE(leak.detail.find("leaves 98 KiB"), std::string::npos) << leak.detail;
   const CvdMethod method;
   const Target target{.name = "cube", .mesh = load_shape({.name = "cube"}).mesh, .material = {}};
-  const CheckResult much =
-      make_check("memory", {.method = method,
-                            .options = Options(method.options(), {}, "test"),
-                            .target = target,
-                            .memory_mb = 1});
+  const CheckResult much = make_check("memory", {.method = method,
+                                                 .options = Options(method.options(), {}, "test"),
+                                                 .target = target,
+                                                 .memory_mb = 1});
   EXPECT_EQ(much.conformity, Conformity::failed) << much.detail;
 }
 

@@ -19,6 +19,7 @@
 #include "harness/suite_overrides.h"
 #include "harness/suite_reader.h"
 #include "learning_world.h"
+#include "stored_results.h"
 #include "temporary_folder.h"
 
 namespace fracbench {
@@ -41,17 +42,6 @@ LearningResult make(const fs::path& folder, int jobs) {
 std::string index_bytes(const fs::path& folder) {
   std::ifstream stream(folder / "learning.json", std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::map<std::string, DataTree::Array> results_of(const fs::path& folder) {
-  std::map<std::string, DataTree::Array> all;
-  for (const fs::path& file : list_records(folder)) {
-    const DataTree tree = read_hdf5(file);
-    for (const auto& [path, array] : tree.arrays()) {
-      if (path.starts_with("result")) all[file.filename().string() + ":" + path] = array;
-    }
-  }
-  return all;
 }
 
 // Not a test of its own: what the test below starts and kills.
@@ -98,7 +88,7 @@ TEST(LearningKillTest, KilledAndResumedItIsTheSameBytesAsWhenItWasLeftAlone) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   EXPECT_GE(partly, 1) << "the kills came too early or too late to mean anything";
   EXPECT_EQ(index_bytes(base / "killed"), index_bytes(base / "alone"));
-  EXPECT_TRUE(results_of(base / "killed") == results_of(base / "alone"));
+  EXPECT_TRUE(stored_results(base / "killed") == stored_results(base / "alone"));
 }
 
 }  // namespace

@@ -131,9 +131,9 @@ TEST_F(SuiteTest, FindsFilesInTheUsersFolderOfShapes) {
 
 TEST_F(SuiteTest, OverridesReplaceSingleValues) {
   Suite suite = toy_suite(catalog);
-  for (const char* assignment :
-       {"seed=7", "repeats=3", "threads_per_cell=2", "device=cuda", "method.halves-wide.margin=0.15",
-        "scenario.shove.count=2", "shape.*.longest_side=1", "shape.slab.resolution=4"}) {
+  for (const char* assignment : {"seed=7", "repeats=3", "threads_per_cell=2", "device=cuda",
+                                 "method.halves-wide.margin=0.15", "scenario.shove.count=2",
+                                 "shape.*.longest_side=1", "shape.slab.resolution=4"}) {
     suite = with_override(suite, assignment, catalog);
   }
   EXPECT_EQ(suite.seed, 7);

@@ -13,11 +13,11 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/process_tree.h"
 #include "harness/record_store.h"
 #include "harness/runner.h"
 #include "harness/suite_overrides.h"
 #include "harness/summaries.h"
-#include "core/process_tree.h"
 #include "hostile_method.h"
 #include "temporary_folder.h"
 #include "toy_catalog.h"

@@ -1,4 +1,3 @@
-#include "source_folder.h"
 #include "tests/scenarios/test_bodies.h"
 
 #include <algorithm>
@@ -6,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "source_folder.h"
 
 namespace fracbench::test {
 

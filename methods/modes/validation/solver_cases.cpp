@@ -7,8 +7,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/sum.h"
 #include "core/adjusted_rand_index.h"
+#include "core/sum.h"
 #include "geometry/measures.h"
 #include "methods/modes/cage.h"
 #include "methods/modes/fracture_modes.h"
@@ -180,9 +180,9 @@ std::vector<Accuracy> hole(Context& context) {
   const Solved solved = solve(plate, 1924, {.count = 6}, context);
   std::vector<Accuracy> rows;
   add_table_row(rows, solved, {2, 2, 2});
-  // Published for modes 4 to 6: 2, 4 and 4 pieces. The second cut runs across the first, through the
-  // other two ligaments. The two halves of a tet mesh are not quite equal, and only a sliver at a
-  // ligament makes the second field orthogonal to the first; and each direction has that cut, at
+  // Published for modes 4 to 6: 2, 4 and 4 pieces. The second cut runs across the first, through
+  // the other two ligaments. The two halves of a tet mesh are not quite equal, and only a sliver at
+  // a ligament makes the second field orthogonal to the first; and each direction has that cut, at
   // half the energy of four quarters.
   rows.push_back({.name = "pieces of mode 4 of at least a tenth of the volume",
                   .reference = kTable,
