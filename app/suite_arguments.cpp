@@ -88,7 +88,7 @@ void CellWorkers::measure_for(RunOptions& options) {
 
 LearningResult make_learning_data(const Suite& suite, const Catalog& catalog,
                                   const SuiteArguments& a, const std::stop_token& stop) {
-  const Plan plan = make_learning_plan(suite, catalog, learning_shapes(suite, a.plan.shapes));
+  const Plan plan = make_learning_plan(suite, catalog, learning_shapes(suite, a.plan));
   const std::filesystem::path folder = a.learning_folder();
   fmt::print(stderr, "{}: {}\n", plan.suite.name, estimate_cost(plan, folder, a.jobs).describe());
   LearningResult result;

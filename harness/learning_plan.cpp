@@ -37,22 +37,26 @@ Suite learning_suite(const Suite& suite) {
   return result;
 }
 
-std::vector<std::string> learning_shapes(const Suite& suite,
-                                         const std::vector<std::string>& wanted) {
+std::vector<std::string> learning_shapes(const Suite& suite, const PlanOptions& part) {
   std::vector<std::string> labels;
   if (!suite.learning) return labels;
-  const auto names = [](const std::vector<std::string>& list, const std::string& name) {
+  const auto has = [](const std::vector<std::string>& list, const std::string& name) {
     return std::ranges::find(list, name) != list.end();
   };
-  const std::vector<std::string>& covered = suite.learning->shapes;
-  const auto learned_with = [&](const std::string& label) {
-    return std::ranges::any_of(
-        suite.methods, [&](const SuiteMethod& method) { return names(method.learn_with, label); });
+  // None named: all.
+  const auto named = [&](const std::vector<std::string>& list, const auto& entry,
+                         const std::string& name) {
+    return list.empty() || has(list, entry.label) || has(list, name);
   };
+  const auto learned_with = [&](const std::string& label) {
+    return std::ranges::any_of(suite.methods, [&](const SuiteMethod& method) {
+      return named(part.methods, method, method.name) && has(method.learn_with, label);
+    });
+  };
+  const std::vector<std::string>& covered = suite.learning->shapes;
   for (const SuiteShape& shape : suite.shapes) {
-    if (!covered.empty() && !names(covered, shape.label)) continue;
-    if (wanted.empty() || names(wanted, shape.label) || names(wanted, shape.request.name) ||
-        learned_with(shape.label)) {
+    if (!covered.empty() && !has(covered, shape.label)) continue;
+    if (named(part.shapes, shape, shape.request.name) || learned_with(shape.label)) {
       labels.push_back(shape.label);
     }
   }

@@ -16,11 +16,9 @@ std::filesystem::path learning_folder_in(const std::filesystem::path& folder);
 /// suite has no table [learning].
 Suite learning_suite(const Suite& suite);
 
-/// The labels of the shapes that the suite makes learning data for, among those named by label or
-/// name and those that a method learns with them; none named: all. Empty where nothing is to be
-/// made.
-std::vector<std::string> learning_shapes(const Suite& suite,
-                                         const std::vector<std::string>& wanted = {});
+/// The labels of the shapes that the suite makes learning data for, among those of this part of it
+/// and those that its methods learn with them. Empty where nothing is to be made.
+std::vector<std::string> learning_shapes(const Suite& suite, const PlanOptions& part = {});
 
 /// The plan of that suite for some of its shapes, by label or name; none: all. Throws InputError
 /// also where the method itself has to learn, and where no shape is left.

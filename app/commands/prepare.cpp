@@ -26,7 +26,7 @@ ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
                   const SuiteArguments& a) {
   Json json = Json::object();
   std::string text;
-  const std::vector<std::string> learned = learning_shapes(suite, a.plan.shapes);
+  const std::vector<std::string> learned = learning_shapes(suite, a.plan);
   if (!learned.empty()) {
     const CostEstimate cost =
         estimate_cost(make_learning_plan(suite, catalog, learned), a.learning_folder(), a.jobs);
@@ -87,7 +87,7 @@ ExitCode prepare(SuiteArguments a, std::stop_token stop) {
 
   Json json = Json::object();
   ExitCode code = ExitCode::good;
-  if (!learning_shapes(suite, a.plan.shapes).empty()) {
+  if (!learning_shapes(suite, a.plan).empty()) {
     const LearningResult result = make_learning_data(suite, catalog, a, stop);
     json["learning"] = to_json(result);
     json["learning"]["folder"] = a.learning_folder().string();

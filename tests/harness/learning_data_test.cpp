@@ -282,8 +282,11 @@ TEST_F(LearningDataTest, IsHandedToMethodsThatLearnAndIsPartOfTheirKeys) {
 TEST_F(LearningDataTest, OfSeveralShapesIsHandedToAMethodThatLearnsThemTogether) {
   const std::string text = learning_suite_text(true) + "learn_with = [\"box\", \"slab\"]\n";
   const Suite together = parse_suite(text, "toys.toml", catalog);
-  EXPECT_EQ(learning_shapes(together, {"slab"}), (std::vector<std::string>{"box", "slab"}));
-  Plan plan = make_plan(together, catalog, {.methods = {}, .shapes = {"slab"}});
+  const PlanOptions slab{.methods = {}, .shapes = {"slab"}};
+  EXPECT_EQ(learning_shapes(together, slab), (std::vector<std::string>{"box", "slab"}));
+  EXPECT_EQ(learning_shapes(together, {.methods = {"halves"}, .shapes = {"slab"}}),
+            std::vector<std::string>{"slab"});
+  Plan plan = make_plan(together, catalog, slab);
   plan.learning_folder = made();
   EXPECT_TRUE(has_learning_data(plan, plan.learning_folder));
   EXPECT_TRUE(run_suite(plan, catalog, {.folder = base / "results"}).complete());
