@@ -7,7 +7,6 @@
 
 #include "core/text.h"
 #include "harness/collision_store.h"
-#include "harness/cost_model.h"
 #include "harness/learning_plan.h"
 #include "harness/suite_files.h"
 #include "harness/suite_overrides.h"
@@ -84,6 +83,11 @@ void CellWorkers::measure_for(RunOptions& options) {
     return pool_->execute(cell, progress, stop);
   };
   options.ready = [this](const Cell& cell) { return pool_->ready(cell); };
+}
+
+CostEstimate learning_cost(const Suite& suite, const Catalog& catalog, const SuiteArguments& a) {
+  return estimate_cost(make_learning_plan(suite, catalog, learning_shapes(suite, a.plan)),
+                       a.learning_folder(), a.jobs);
 }
 
 LearningResult make_learning_data(const Suite& suite, const Catalog& catalog,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/catalog.h"
+#include "harness/cost_model.h"
 #include "harness/learning_data.h"
 #include "harness/plan.h"
 #include "harness/suite.h"
@@ -49,6 +50,10 @@ class CellWorkers {
  private:
   std::optional<WorkerPool> pool_;
 };
+
+/// What making the learning data of the suite costs, for the part that was asked for.
+CostEstimate learning_cost(const Suite& suite, const Catalog& catalog,
+                           const SuiteArguments& arguments);
 
 /// Makes the learning data of the suite for the shapes that were asked for, with the progress on
 /// standard error, and says there what came of it.

@@ -26,10 +26,8 @@ ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
                   const SuiteArguments& a) {
   Json json = Json::object();
   std::string text;
-  const std::vector<std::string> learned = learning_shapes(suite, a.plan);
-  if (!learned.empty()) {
-    const CostEstimate cost =
-        estimate_cost(make_learning_plan(suite, catalog, learned), a.learning_folder(), a.jobs);
+  if (!learning_shapes(suite, a.plan).empty()) {
+    const CostEstimate cost = learning_cost(suite, catalog, a);
     json["learning"] = cost.as_json();
     text += fmt::format("learning data: {}\n", cost.describe());
   }

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/command.h"
 #include "app/suite_arguments.h"
@@ -50,12 +51,17 @@ RunResult run_shown(const Plan& plan, const Catalog& catalog, const RunArguments
   return run_suite(plan, catalog, options);
 }
 
+/// Whether methods learn from what is not there yet.
+bool lacks_learning_data(const Plan& plan) {
+  const bool learns =
+      std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
+  return learns && !has_learning_data(plan, plan.learning_folder);
+}
+
 /// What methods that learn need is made first; false: there is not enough of it.
 bool make_what_is_learned(const Plan& plan, const Catalog& catalog, const RunArguments& arguments,
                           const std::stop_token& stop) {
-  const bool learns =
-      std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
-  if (!learns || has_learning_data(plan, plan.learning_folder)) return true;
+  if (!lacks_learning_data(plan)) return true;
   const LearningResult result = make_learning_data(plan.suite, catalog, arguments, stop);
   return exit_code_of(result) == ExitCode::good;
 }
@@ -78,6 +84,25 @@ void print_scale(const Suite& suite, const SuiteScale& scale, const Catalog& cat
   fmt::print("--scale {} ({}): {}\n", scale.name, scale.summary, cost);
 }
 
+/// What there is to do, and what it costs as far as that is known.
+void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
+              const RunArguments& arguments) {
+  const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
+  std::optional<CostEstimate> learning;
+  if (lacks_learning_data(plan)) {
+    learning = learning_cost(suite, catalog, arguments);
+  }
+  if (arguments.as_json) {
+    auto json = cost.as_json();
+    if (learning) json["learning"] = learning->as_json();
+    print_json(json);
+    return;
+  }
+  if (learning) fmt::print("learning data, made first: {}\n", learning->describe());
+  fmt::print("{}\n", cost.describe());
+  for (const SuiteScale& scale : suite.scales) print_scale(suite, scale, catalog, arguments);
+}
+
 ExitCode run(RunArguments arguments, std::stop_token stop) {
   const Catalog catalog = built_in_catalog();
   const Suite suite = read_suite(arguments, catalog);
@@ -89,16 +114,11 @@ ExitCode run(RunArguments arguments, std::stop_token stop) {
   Plan plan = make_plan(suite, catalog, arguments.plan);
   plan.learning_folder = arguments.learning_folder();
 
-  const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
   if (arguments.dry_run) {
-    if (arguments.as_json) {
-      print_json(cost.as_json());
-    } else {
-      fmt::print("{}\n", cost.describe());
-      for (const SuiteScale& scale : suite.scales) print_scale(suite, scale, catalog, arguments);
-    }
+    say_cost(suite, plan, catalog, arguments);
     return ExitCode::good;
   }
+  const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
   if (!make_what_is_learned(plan, catalog, arguments, stop)) return ExitCode::not_measured;
   fmt::print(stderr, "{}: {}\n", plan.suite.name, cost.describe());
   const RunResult result = run_shown(plan, catalog, arguments, stop);

@@ -62,6 +62,15 @@ TEST_F(Run, AnswersADryRunAsJsonToo) {
   EXPECT_EQ(run("--dry-run").json()["found"], 2);
 }
 
+TEST_F(Run, ADryRunTellsWhatIsLearnedFrom) {
+  const Answer all = call("run quick --out results --dry-run --json", folder_.path());
+  EXPECT_EQ(all.json()["learning"]["cells"], 20);
+  EXPECT_THAT(call("run quick --out results --dry-run", folder_.path()).output,
+              HasSubstr("learning data, made first: 20 cells"));
+  const Answer none = call("run quick --methods cvd --dry-run --json", folder_.path());
+  EXPECT_FALSE(none.json().contains("learning"));
+}
+
 TEST_F(Run, KnowsItsResultsAgainFromAnotherFolder) {
   ASSERT_EQ(call("fracture cvd cube --ball 3,0,0,-60,0,0 --set sites=1 --out rock", folder_.path())
                 .exit_code,
