@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "methods/bem/galerkin_integrals.h"
+#include "methods/bem/processor_clones.h"
 
 namespace fracbench::bem {
 namespace {
@@ -30,9 +31,9 @@ struct CurlSums {
 };
 
 // K = mu / (4 pi (1 - nu)) ((2 nu - 1) G - R), R being the integral of r r^T / r^3.
-__attribute__((target_clones("avx2", "default"))) void add_curl(
-    const std::array<StripValues, kPairComponents>& table, const Vec3& s, double nu,
-    CurlSums& sums) {
+FRACBENCH_PROCESSOR_CLONES("avx2", "default")
+void add_curl(const std::array<StripValues, kPairComponents>& table, const Vec3& s, double nu,
+              CurlSums& sums) {
   for (std::size_t t = 0; t < kStrip; ++t) {
     const double g = table[0][t] + table[1][t] + table[2][t];
     const double isotropic = (2 * nu - 1) * g;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "methods/bem/processor_clones.h"
+
 namespace fracbench::bem {
 namespace {
 
@@ -103,13 +105,14 @@ void PairBatch::set(int lane, const Corners& test_corners, const Corners& trial_
   }
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void sum_pairs(
-    const PairBatch& batch, std::span<const TrianglePoint> rule, PairSums& sums) {
+FRACBENCH_PROCESSOR_CLONES("avx512f", "avx2", "default")
+void sum_pairs(const PairBatch& batch, std::span<const TrianglePoint> rule, PairSums& sums) {
   sum_batch<false>(batch, rule, sums);
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void sum_pairs_with_double_layer(
-    const PairBatch& batch, std::span<const TrianglePoint> rule, PairSums& sums) {
+FRACBENCH_PROCESSOR_CLONES("avx512f", "avx2", "default")
+void sum_pairs_with_double_layer(const PairBatch& batch, std::span<const TrianglePoint> rule,
+                                 PairSums& sums) {
   sum_batch<true>(batch, rule, sums);
 }
 

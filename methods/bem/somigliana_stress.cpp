@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "methods/bem/elastic_operator.h"
+#include "methods/bem/processor_clones.h"
 #include "methods/bem/surface_stress.h"
 #include "methods/bem/triangle_potentials.h"
 #include "methods/bem/triangle_rules.h"
@@ -85,8 +86,9 @@ SomiglianaStress::SomiglianaStress(const BoundaryElements& elements,
   }
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void SomiglianaStress::add_groups(
-    const Group* begin, const Group* end, const Vec3& x, Sums& sums, unsigned char* near) {
+FRACBENCH_PROCESSOR_CLONES("avx512f", "avx2", "default")
+void SomiglianaStress::add_groups(const Group* begin, const Group* end, const Vec3& x, Sums& sums,
+                                  unsigned char* near) {
   Lanes field_kelvin[6] = {};
   Lanes third[6] = {};
   Lanes laplace[6] = {};
