@@ -25,6 +25,17 @@ ImpulseScaling impulse_scaling(const TriangleMesh& target, double max_impulse) {
           .max_impulse = max_impulse};
 }
 
+std::array<double, kScalingValues> scaling_values(const ImpulseScaling& scaling) {
+  const Vec3& c = scaling.centre;
+  return {c.x(), c.y(), c.z(), scaling.half_side, scaling.max_impulse};
+}
+
+ImpulseScaling scaling_of(std::span<const double, kScalingValues> values) {
+  return {.centre = {values[0], values[1], values[2]},
+          .half_side = values[3],
+          .max_impulse = values[4]};
+}
+
 std::vector<float> impulse_vector(const Impact& impact, const ImpulseScaling& scaling,
                                   int features) {
   std::vector<float> values;

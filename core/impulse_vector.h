@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/impact.h"
@@ -15,6 +18,11 @@ struct ImpulseScaling {
 
   bool operator==(const ImpulseScaling&) const = default;
 };
+
+/// As files hold it: centre, half side, I_max.
+inline constexpr std::size_t kScalingValues = 5;
+std::array<double, kScalingValues> scaling_values(const ImpulseScaling& scaling);
+ImpulseScaling scaling_of(std::span<const double, kScalingValues> values);
 
 /// Numbers in one impulse's vector.
 inline constexpr int kImpulseValues = 7;

@@ -60,19 +60,13 @@ struct fmt::formatter<fracbench::Name> : fmt::formatter<std::string_view> {
 };
 
 /// What a name and a text are both: the text. Lets algorithms look for one among the others.
-template <template <typename> typename A, template <typename> typename B>
-struct std::basic_common_reference<fracbench::Name, std::string, A, B> {
+template <typename Text, template <typename> typename A, template <typename> typename B>
+  requires std::same_as<Text, std::string> || std::same_as<Text, std::string_view>
+struct std::basic_common_reference<fracbench::Name, Text, A, B> {
   using type = std::string_view;
 };
-template <template <typename> typename A, template <typename> typename B>
-struct std::basic_common_reference<std::string, fracbench::Name, A, B> {
-  using type = std::string_view;
-};
-template <template <typename> typename A, template <typename> typename B>
-struct std::basic_common_reference<fracbench::Name, std::string_view, A, B> {
-  using type = std::string_view;
-};
-template <template <typename> typename A, template <typename> typename B>
-struct std::basic_common_reference<std::string_view, fracbench::Name, A, B> {
+template <typename Text, template <typename> typename A, template <typename> typename B>
+  requires std::same_as<Text, std::string> || std::same_as<Text, std::string_view>
+struct std::basic_common_reference<Text, fracbench::Name, A, B> {
   using type = std::string_view;
 };

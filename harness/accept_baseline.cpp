@@ -96,14 +96,16 @@ void copy_results(const fs::path& from, const fs::path& to) {
   }
 }
 
-void require_complete(const fs::path& folder) {
-  const Results results = read_results(folder);
+/// Throws InputError where a cell of its suite has no good record.
+Results read_complete(const fs::path& folder) {
+  Results results = read_results(folder);
   if (!results.unreadable.empty()) fail(folder, "holds a damaged record: " + results.unreadable[0]);
   if (results.cells.size() != results.suite.cells || results.cells.empty()) {
     fail(folder, fmt::format("cannot become a baseline: it has {} of the suite's {} cells; run the "
                              "suite to its end first",
                              results.cells.size(), results.suite.cells));
   }
+  return results;
 }
 
 std::string notes_text(const std::vector<Acceptance>& notes) {
@@ -120,10 +122,9 @@ Acceptance note_on(const Results& results, Acceptance note) {
   return note;
 }
 
-Acceptance accept_summary(const fs::path& baseline, const fs::path& candidate,
+Acceptance accept_summary(const fs::path& baseline, const fs::path& candidate, Results results,
                           const Acceptance& note) {
   std::vector<Acceptance> notes = read_acceptances(baseline);
-  Results results = read_results(candidate);
   add_label_agreement(candidate, results);
   notes.push_back(note_on(results, note));
   write_summary_file(baseline, results, notes);
@@ -155,8 +156,10 @@ Acceptance accept_baseline(const fs::path& baseline, const fs::path& candidate,
         "--accept needs a note of why: --why TEXT (and of who, where the system does "
         "not know: --who TEXT)");
   }
-  require_complete(candidate);
-  if (names_summary_file(baseline)) return accept_summary(baseline, candidate, note);
+  Results results = read_complete(candidate);
+  if (names_summary_file(baseline)) {
+    return accept_summary(baseline, candidate, std::move(results), note);
+  }
   if (fs::exists(baseline)) {
     if (fs::equivalent(baseline, candidate)) fail(candidate, "is the baseline itself");
     if (fs::is_symlink(baseline) || !fs::is_directory(baseline) ||
@@ -168,8 +171,8 @@ Acceptance accept_baseline(const fs::path& baseline, const fs::path& candidate,
   try {
     TemporaryCopy copy(baseline);
     copy_results(candidate, copy.path());
-    require_complete(copy.path());  // the candidate may have changed meanwhile
-    notes.push_back(note_on(read_results(copy.path()), note));
+    // Read anew: the candidate may have changed meanwhile.
+    notes.push_back(note_on(read_complete(copy.path()), note));
     write_file_atomically(copy.path() / kNotes, notes_text(notes));
     sync(copy.path());
     copy.take_place();

@@ -17,6 +17,7 @@
 #include "harness/claim.h"
 #include "harness/data_file.h"
 #include "harness/record.h"
+#include "harness/record_store.h"
 
 namespace fracbench {
 
@@ -48,25 +49,9 @@ Kind kind_of(const Plan& plan, const Cell& cell) {
               {"method", method.info.name}, {"options", options}, {"shape", shape.shape.name}}};
 }
 
-Record read_verified(const fs::path& file) {
-  Record record = to_record(read_hdf5(file));
-  if (record.key != file.stem().string()) throw DataError("is the record of another cell");
-  return record;
-}
-
-std::vector<fs::path> records_of(const fs::path& entry) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& item : fs::directory_iterator(entry, error)) {
-    if (item.path().extension() == ".h5") files.push_back(item.path());
-  }
-  std::ranges::sort(files);
-  return files;
-}
-
 std::string damage_of(const fs::path& file) {
   try {
-    read_verified(file);
+    read_record_file(file);
     return "";
   } catch (const DataError& error) {
     return error.what();
@@ -123,7 +108,7 @@ class Through {
   static std::optional<Record> read(const fs::path& file) {
     if (!fs::exists(file)) return std::nullopt;
     try {
-      return read_verified(file);
+      return read_record_file(file);
     } catch (const DataError& error) {
       warn_of_cache(
           fmt::format("the collision {:.12} is made anew: {}", file.stem().string(), error.what()));
@@ -190,7 +175,7 @@ std::vector<CacheEntry> CollisionStore::list(bool verify) const {
     } catch (const nlohmann::json::exception& bad) {
       entry.complaint = fmt::format("'{}': {}", kManifest, bad.what());
     }
-    for (const fs::path& file : records_of(folder.path())) {
+    for (const fs::path& file : record_files(folder.path())) {
       entry.bytes += fs::file_size(file, error);
       ++*entry.collisions;
       if (!verify || !entry.complaint.empty()) continue;
@@ -205,15 +190,11 @@ std::vector<CacheEntry> CollisionStore::list(bool verify) const {
 }
 
 bool CollisionStore::remove(const std::string& key) const {
-  std::error_code error;
-  const fs::path entry = folder_ / "collisions" / key;
-  const bool there = fs::exists(entry, error);
-  fs::remove_all(entry, error);
-  return there && !error;
+  return remove_cache_entry(folder_ / "collisions" / key);
 }
 
 void CollisionStore::remove_damaged(const std::string& key) const {
-  for (const fs::path& file : records_of(folder_ / "collisions" / key)) {
+  for (const fs::path& file : record_files(folder_ / "collisions" / key)) {
     std::error_code ignored;
     if (!damage_of(file).empty()) fs::remove(file, ignored);
   }

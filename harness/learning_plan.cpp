@@ -43,20 +43,15 @@ std::vector<std::string> learning_shapes(const Suite& suite, const PlanOptions& 
   const auto has = [](const std::vector<std::string>& list, const std::string& name) {
     return std::ranges::find(list, name) != list.end();
   };
-  // None named: all.
-  const auto named = [&](const std::vector<std::string>& list, const auto& entry,
-                         const std::string& name) {
-    return list.empty() || has(list, entry.label) || has(list, name);
-  };
   const auto learned_with = [&](const std::string& label) {
     return std::ranges::any_of(suite.methods, [&](const SuiteMethod& method) {
-      return named(part.methods, method, method.name) && has(method.learn_with, label);
+      return keeps(part.methods, method.label, method.name) && has(method.learn_with, label);
     });
   };
   const std::vector<std::string>& covered = suite.learning->shapes;
   for (const SuiteShape& shape : suite.shapes) {
     if (!covered.empty() && !has(covered, shape.label)) continue;
-    if (named(part.shapes, shape, shape.request.name) || learned_with(shape.label)) {
+    if (keeps(part.shapes, shape.label, shape.request.name) || learned_with(shape.label)) {
       labels.push_back(shape.label);
     }
   }

@@ -56,6 +56,30 @@ TriangleMesh load_mesh(const std::filesystem::path& folder, const LearningShape&
   return mesh;
 }
 
+/// The shape of a folder's index whose data is that of the digest.
+LearningShape learned_shape(const std::filesystem::path& folder, std::string_view label,
+                            std::string_view digest) {
+  const LearningIndex index = read_learning_index(folder);
+  const LearningShape& shape = index.shape(label, folder.string());
+  if (shape.digest != digest) {
+    throw InputError(
+        fmt::format("{}: the learning data of shape '{}' was made by other values of the suite or "
+                    "other sources of the program; make it anew with fracbench prepare",
+                    folder.string(), label));
+  }
+  return shape;
+}
+
+/// For who is told what to do about damaged data.
+template <typename Load>
+auto as_input(const Load& load) {
+  try {
+    return load();
+  } catch (const DataError& error) {
+    throw InputError(error.what());
+  }
+}
+
 }  // namespace
 
 LearningShapeSet load_learning_shape(const std::filesystem::path& folder,
@@ -84,30 +108,24 @@ LearningSet load_learning_set(const std::filesystem::path& folder) {
   return set;
 }
 
+LearningData load_learning_data(const std::filesystem::path& folder, std::string_view label,
+                                std::string_view digest) {
+  const LearningShape shape = learned_shape(folder, label, digest);
+  return as_input([&]() -> LearningData {
+    return {.examples = load_examples(folder, shape, LearningRole::train),
+            .max_impulse = shape.max_impulse};
+  });
+}
+
 FurtherLearning load_further_learning(const std::filesystem::path& folder, std::string_view label,
                                       std::string_view digest) {
-  const LearningIndex index = read_learning_index(folder);
-  const LearningShape& shape = index.shape(label, folder.string());
-  if (shape.digest != digest) {
-    throw InputError(
-        fmt::format("{}: the learning data of shape '{}' was made by other values of the suite or "
-                    "other sources of the program; make it anew with fracbench prepare",
-                    folder.string(), label));
-  }
-  try {
+  const LearningShape shape = learned_shape(folder, label, digest);
+  return as_input([&]() -> FurtherLearning {
     return {.shape = shape.label,
             .mesh = load_mesh(folder, shape),
             .examples = load_examples(folder, shape, LearningRole::train),
             .max_impulse = shape.max_impulse};
-  } catch (const DataError& error) {
-    throw InputError(error.what());
-  }
-}
-
-LearningData load_learning_data(const std::filesystem::path& folder, std::string_view label,
-                                std::string_view digest) {
-  FurtherLearning all = load_further_learning(folder, label, digest);
-  return {.examples = std::move(all.examples), .max_impulse = all.max_impulse};
+  });
 }
 
 }  // namespace fracbench

@@ -39,9 +39,7 @@ Entries kept(const Entries& entries, const std::vector<std::string>& wanted, std
   }
   Entries result;
   for (const auto& entry : entries) {
-    const bool keep = std::ranges::find(wanted, entry.label) != wanted.end() ||
-                      std::ranges::find(wanted, name_of(entry)) != wanted.end();
-    if (keep) result.push_back(entry);
+    if (keeps(wanted, entry.label, name_of(entry))) result.push_back(entry);
   }
   return result;
 }
@@ -243,6 +241,12 @@ void add_learning_digests(Plan& plan, const Catalog& catalog) {
 }
 
 }  // namespace
+
+bool keeps(const std::vector<std::string>& wanted, const std::string& label,
+           const std::string& name) {
+  return wanted.empty() || std::ranges::find(wanted, label) != wanted.end() ||
+         std::ranges::find(wanted, name) != wanted.end();
+}
 
 bool PlannedMethod::breaks(std::string_view shape) const {
   return shapes.empty() || std::ranges::find(shapes, shape) != shapes.end();

@@ -28,6 +28,10 @@ struct PlanOptions {
   Shard shard = {};
 };
 
+/// Whether such a list of labels or names keeps an entry; none named: all.
+bool keeps(const std::vector<std::string>& wanted, const std::string& label,
+           const std::string& name);
+
 struct PlannedScenario {
   std::string name;  ///< the suite's label and that of the scene: "single-0003"
   Scenario scenario;

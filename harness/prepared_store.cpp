@@ -241,12 +241,7 @@ std::vector<CacheEntry> PreparedStore::list(bool verify) const {
   return bodies;
 }
 
-bool PreparedStore::remove(const std::string& key) const {
-  std::error_code error;
-  const bool there = fs::exists(entry(key), error);
-  fs::remove_all(entry(key), error);
-  return there && !error;
-}
+bool PreparedStore::remove(const std::string& key) const { return remove_cache_entry(entry(key)); }
 
 PreparedBody prepare_body(const PreparedRequest& request, Context& context) {
   if (!request.method.info().quick_to_prepare) {

@@ -53,10 +53,10 @@ fs::path part_of(const fs::path& file) { return file.string() + std::string(kPar
 
 }  // namespace
 
-std::vector<fs::path> list_records(const fs::path& folder) {
+std::vector<fs::path> record_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const auto& item : fs::directory_iterator(folder / "records", error)) {
+  for (const auto& item : fs::directory_iterator(folder, error)) {
     const fs::path& file = item.path();
     if (file.extension() == ".h5" && file.stem().string().size() == kKeyDigits) {
       files.push_back(file);
@@ -64,6 +64,10 @@ std::vector<fs::path> list_records(const fs::path& folder) {
   }
   std::ranges::sort(files);
   return files;
+}
+
+std::vector<fs::path> list_records(const fs::path& folder) {
+  return record_files(folder / "records");
 }
 
 namespace {
@@ -75,10 +79,14 @@ DataTree read_present(const fs::path& file) {
 
 }  // namespace
 
-Record read_record(const fs::path& folder, std::string_view key) {
-  Record record = to_record(read_present(folder / "records" / fmt::format("{}.h5", key)));
-  if (record.key != key) throw DataError("is the record of another cell");
+Record read_record_file(const fs::path& file) {
+  Record record = to_record(read_present(file));
+  if (record.key != file.stem().string()) throw DataError("is the record of another cell");
   return record;
+}
+
+Record read_record(const fs::path& folder, std::string_view key) {
+  return read_record_file(folder / "records" / fmt::format("{}.h5", key));
 }
 
 TriangleMesh read_target(const fs::path& folder, std::string_view digest) {

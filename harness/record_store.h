@@ -12,6 +12,13 @@
 
 namespace fracbench {
 
+/// The files of records that lie directly in a folder, sorted; only looks.
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder);
+
+/// The record in a file that is called after its key, verified; only looks. Throws DataError where
+/// it is missing or damaged, or is the record of another key.
+Record read_record_file(const std::filesystem::path& file);
+
 /// The records of a results folder, sorted; only looks.
 std::vector<std::filesystem::path> list_records(const std::filesystem::path& folder);
 

@@ -65,8 +65,10 @@ bool is_top_value(std::string_view key) {
 
 void set_top_value(Suite& suite, std::string_view key, std::string_view text) {
   const OptionValue value = parse_option(suite_schema(), key, text, kWhere);
-  if (key == "device") suite.device = std::get<std::string>(value);
-  if (!std::holds_alternative<std::int64_t>(value)) return;
+  if (key == "device") {
+    suite.device = std::get<std::string>(value);
+    return;
+  }
   const std::int64_t number = std::get<std::int64_t>(value);
   if (key == "seed") suite.seed = static_cast<std::uint64_t>(number);
   if (key == "repeats") suite.repeats = static_cast<int>(number);

@@ -24,6 +24,13 @@ std::optional<fs::path> user_cache_folder() {
   return std::nullopt;
 }
 
+bool remove_cache_entry(const fs::path& folder) {
+  std::error_code error;
+  const bool there = fs::exists(folder, error);
+  fs::remove_all(folder, error);
+  return there && !error;
+}
+
 std::chrono::system_clock::time_point last_written(const fs::path& file) {
   std::error_code error;
   const auto time = fs::last_write_time(file, error);

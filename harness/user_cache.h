@@ -28,6 +28,9 @@ struct CacheEntry {
   std::string complaint = {};                       ///< what is wrong with it; empty: nothing
 };
 
+/// Removes the folder of an entry. False where it is not there or cannot be removed.
+bool remove_cache_entry(const std::filesystem::path& folder);
+
 /// When a file was last written; the beginning of time where it is not there.
 std::chrono::system_clock::time_point last_written(const std::filesystem::path& file);
 

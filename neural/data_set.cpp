@@ -159,11 +159,7 @@ std::string digest_of(const DataSet& data) {
   digest.add(data.provenance);
   for (const LearnedShape& shape : data.shapes) {
     digest.add(shape.digest);
-    const Vec3& c = shape.scaling.centre;
-    for (const double v :
-         {c.x(), c.y(), c.z(), shape.scaling.half_side, shape.scaling.max_impulse}) {
-      digest.add(v);
-    }
+    for (const double v : scaling_values(shape.scaling)) digest.add(v);
   }
   digest.add(data.field_unit);
   for (const Pattern& pattern : data.patterns) {

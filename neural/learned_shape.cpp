@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr const char* kShapes = "shapes";
 constexpr const char* kScaling = "scaling";
-constexpr std::size_t kScalingValues = 5;
 
 }  // namespace
 
@@ -36,9 +36,7 @@ void put_shapes(ArrayFile& file, std::span<const LearnedShape> shapes) {
   std::vector<double>& scaling = file.reals[kScaling];
   for (const LearnedShape& shape : shapes) {
     list.push_back({{"name", shape.name}, {"digest", shape.digest}});
-    const Vec3& c = shape.scaling.centre;
-    scaling.insert(scaling.end(),
-                   {c.x(), c.y(), c.z(), shape.scaling.half_side, shape.scaling.max_impulse});
+    std::ranges::copy(scaling_values(shape.scaling), std::back_inserter(scaling));
   }
   file.texts[kShapes] = list.dump();
 }
@@ -51,15 +49,13 @@ std::vector<LearnedShape> take_shapes(ArrayFile& file) {
   for (const auto& entry : nlohmann::json::parse(text->second)) {
     const std::size_t at = kScalingValues * shapes.size();
     if (scaling.size() < at + kScalingValues) break;
-    const std::span<const double> s = std::span(scaling).subspan(at, kScalingValues);
-    if (!std::ranges::all_of(s, [](double v) { return std::isfinite(v); }) || s[3] <= 0 ||
-        s[4] <= 0) {
+    const auto values = std::span(scaling).subspan(at).first<kScalingValues>();
+    const ImpulseScaling of_shape = scaling_of(values);
+    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }) ||
+        of_shape.half_side <= 0 || of_shape.max_impulse <= 0) {
       throw InputError("array 'scaling' is not that of a body");
     }
-    shapes.push_back(
-        {.name = entry.at("name"),
-         .digest = entry.at("digest"),
-         .scaling = {.centre = {s[0], s[1], s[2]}, .half_side = s[3], .max_impulse = s[4]}});
+    shapes.push_back({.name = entry.at("name"), .digest = entry.at("digest"), .scaling = of_shape});
   }
   if (shapes.empty() || kScalingValues * shapes.size() != scaling.size()) {
     throw InputError("its shapes and their scaling do not fit");

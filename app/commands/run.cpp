@@ -89,9 +89,7 @@ void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
               const RunArguments& arguments) {
   const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
   std::optional<CostEstimate> learning;
-  if (lacks_learning_data(plan)) {
-    learning = learning_cost(suite, catalog, arguments);
-  }
+  if (lacks_learning_data(plan)) learning = learning_cost(suite, catalog, arguments);
   if (arguments.as_json) {
     auto json = cost.as_json();
     if (learning) json["learning"] = learning->as_json();

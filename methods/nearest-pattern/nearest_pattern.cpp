@@ -63,8 +63,8 @@ class NearestPatternBody : public Breakable {
 
   void save(const std::filesystem::path& folder) const override {
     ArrayFile file;
-    const Vec3& c = scaling_.centre;
-    file.reals["scaling"] = {c.x(), c.y(), c.z(), scaling_.half_side, scaling_.max_impulse};
+    const auto scaling = scaling_values(scaling_);
+    file.reals["scaling"].assign(scaling.begin(), scaling.end());
     file.integers["features"] = {features_};
     file.texts["body"] = body_;
     auto& sizes = file.integers["pieces"];  // of each pattern
@@ -143,11 +143,10 @@ std::unique_ptr<Breakable> body_of(const ArrayFile& file, const Target& target) 
   if (body != digest_of(target.mesh)) throw InputError("it is not of this body");
   const auto s = reals("scaling");
   const auto features = integers("features");
-  if (s.size() != 5 || features.size() != 1 || features[0] < 1 || features[0] > 2) {
+  if (s.size() != kScalingValues || features.size() != 1 || features[0] < 1 || features[0] > 2) {
     throw InputError("its arrays do not fit");
   }
-  const ImpulseScaling scaling{
-      .centre = {s[0], s[1], s[2]}, .half_side = s[3], .max_impulse = s[4]};
+  const ImpulseScaling scaling = scaling_of(s.first<kScalingValues>());
   auto vertices = reals("vertices");
   auto faces = integers("faces"), vertex_count = integers("vertex_count"),
        face_count = integers("face_count");

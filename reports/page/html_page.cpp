@@ -117,9 +117,8 @@ std::string cells_html(const ReportInput& input, const PageOptions& options) {
   if (options.cells > input.cells.size()) {
     html += fmt::format(
         "<p>The first collisions of each shape: {} of {} cells, here and in the viewer. Tables and "
-        "figures are of all cells; <code>fracbench report --cells {}</code> shows all of them, in "
-        "a "
-        "larger page.</p>\n",
+        "figures are of all cells; <code>fracbench report --cells {}</code> shows all of them, "
+        "in a larger page.</p>\n",
         input.cells.size(), options.cells, options.cells);
   }
   html += "<div class=\"scroll tall\"><table>\n<thead><tr>";
