@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/contingency.h"
+
 namespace fracbench {
 
 /// Agreement of two labellings of the same places (Hubert and Arabie, "Comparing partitions",
@@ -10,5 +12,6 @@ namespace fracbench {
 /// places count where both are >= 0; 1 where there are none. Throws std::invalid_argument for
 /// labellings of different lengths.
 double adjusted_rand_index(std::span<const std::int32_t> a, std::span<const std::int32_t> b);
+double adjusted_rand_index(const Contingency& counts);
 
 }  // namespace fracbench

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/measures.h"
-#include "geometry/surface_distance.h"
+#include "geometry/triangle_tree.h"
 
 namespace fracbench {
 
@@ -57,10 +57,19 @@ std::vector<Vec3> points_on(const TriangleMesh& mesh, int count, Random& random)
   return points;
 }
 
-std::vector<double> distances(const std::vector<Vec3>& points, const SurfaceDistance& surface) {
+std::vector<double> distances(const std::vector<Vec3>& points, const TriangleTree& surface) {
   std::vector<double> result;
-  for (const Vec3& p : points) result.push_back(surface.nearest(p).distance);
+  std::int32_t near = -1;  // points come face by face: what was near the last one is a good start
+  for (const Vec3& p : points) {
+    const TriangleTree::Nearest nearest = surface.nearest(p, near);
+    near = nearest.triangle;
+    result.push_back(std::sqrt(nearest.squared_distance));
+  }
   return result;
+}
+
+double distance(const Vec3& point, const BoundingBox& box) {
+  return (point - point.cwiseMax(box.low).cwiseMin(box.high)).norm();
 }
 
 double mean(const std::vector<double>& values) {
@@ -78,9 +87,23 @@ double quantile_95(std::vector<double> values) {
 
 /// A surface with points on it.
 struct SampledFracture::Sampled {
-  SurfaceDistance surface;
+  TriangleTree surface;
   std::vector<Vec3> points;
+  BoundingBox box = {};
   double volume = 0;  ///< inside, where it is closed
+
+  double mean_distance(const Sampled& other) const {
+    return mean(distances(points, other.surface));
+  }
+
+  /// At most as much; takes no time.
+  double least_mean_distance(const Sampled& other) const {
+    // m; above the rounding of coordinates.
+    constexpr double rounding = 1e-9;
+    double sum = 0;
+    for (const Vec3& p : points) sum += distance(p, other.box);
+    return sum / static_cast<double>(points.size()) - rounding;
+  }
 };
 
 SampledFracture::SampledFracture(const Fragments& fragments, const SurfaceSamples& samples,
@@ -89,13 +112,14 @@ SampledFracture::SampledFracture(const Fragments& fragments, const SurfaceSample
   std::vector<Vec3> on_cracks = points_on(cracks, samples.fracture_surface, random);
   if (!on_cracks.empty()) {
     surface_ = std::make_unique<Sampled>(
-        Sampled{.surface = SurfaceDistance(cracks), .points = std::move(on_cracks)});
+        Sampled{.surface = TriangleTree(cracks), .points = std::move(on_cracks)});
   }
   for (const Fragment& fragment : fragments) {
     std::vector<Vec3> points = points_on(fragment.mesh, samples.fragment, random);
     if (points.empty()) continue;
-    fragments_.push_back({.surface = SurfaceDistance(fragment.mesh),
+    fragments_.push_back({.surface = TriangleTree(fragment.mesh),
                           .points = std::move(points),
+                          .box = bounding_box(fragment.mesh),
                           .volume = std::abs(volume(fragment.mesh))});
   }
 }
@@ -118,14 +142,29 @@ std::optional<double> SampledFracture::fragment_chamfer(const SampledFracture& o
   constexpr double far = std::numeric_limits<double>::infinity();
   std::vector<double> nearest(fragments_.size(), far);
   std::vector<double> nearest_of_other(other.fragments_.size(), far);
+  struct Pair {
+    double least;  ///< Chamfer distance that it may have
+    std::size_t i, j;
+    double least_back;
+  };
+  std::vector<Pair> pairs;
   for (std::size_t i = 0; i < fragments_.size(); ++i) {
     for (std::size_t j = 0; j < other.fragments_.size(); ++j) {
-      const double chamfer = (mean(distances(fragments_[i].points, other.fragments_[j].surface)) +
-                              mean(distances(other.fragments_[j].points, fragments_[i].surface))) /
-                             2;
-      nearest[i] = std::min(nearest[i], chamfer);
-      nearest_of_other[j] = std::min(nearest_of_other[j], chamfer);
+      const double forth = fragments_[i].least_mean_distance(other.fragments_[j]);
+      const double back = other.fragments_[j].least_mean_distance(fragments_[i]);
+      pairs.push_back({.least = (forth + back) / 2, .i = i, .j = j, .least_back = back});
     }
+  }
+  // Those that may be near come first, and spare most others the looking.
+  std::ranges::sort(pairs, {}, &Pair::least);
+  for (const auto& [least, i, j, least_back] : pairs) {
+    const double matters_below = std::max(nearest[i], nearest_of_other[j]);
+    if (least > matters_below) continue;
+    const double forth = fragments_[i].mean_distance(other.fragments_[j]);
+    if ((forth + least_back) / 2 > matters_below) continue;
+    const double chamfer = (forth + other.fragments_[j].mean_distance(fragments_[i])) / 2;
+    nearest[i] = std::min(nearest[i], chamfer);
+    nearest_of_other[j] = std::min(nearest_of_other[j], chamfer);
   }
   const auto weighted = [](const std::vector<Sampled>& fragments,
                            const std::vector<double>& distance) {

@@ -15,6 +15,7 @@ struct FractureSurfaceAgreement {
   double chamfer = 0;
   /// 95 % of the points of one are nearer to the other than this; the larger of both ways.
   double hausdorff_95 = 0;
+  bool operator==(const FractureSurfaceAgreement&) const = default;
 };
 
 /// How many points are drawn, evenly by area.

@@ -4,8 +4,6 @@
 #include <boost/graph/maximum_weighted_matching.hpp>
 #include <cmath>
 #include <map>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "core/adjusted_rand_index.h"
@@ -13,27 +11,6 @@
 namespace fracbench {
 
 namespace {
-
-using Count = long long;
-
-/// How many places each part of A, each of B, and each pair of parts has.
-struct Contingency {
-  std::map<std::int32_t, Count> a, b;
-  std::map<std::pair<std::int32_t, std::int32_t>, Count> both;
-  Count all = 0;
-};
-
-Contingency count_places(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
-  Contingency counts;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i] < 0 || b[i] < 0) continue;
-    ++counts.a[a[i]];
-    ++counts.b[b[i]];
-    ++counts.both[{a[i], b[i]}];
-    ++counts.all;
-  }
-  return counts;
-}
 
 double conditional_entropies(const Contingency& counts) {
   double bits = 0;
@@ -49,7 +26,7 @@ double conditional_entropies(const Contingency& counts) {
 double matched_overlap(const Contingency& counts) {
   using Graph =
       boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property,
-                            boost::property<boost::edge_weight_t, Count>>;
+                            boost::property<boost::edge_weight_t, Contingency::Count>>;
   std::map<std::int32_t, std::size_t> node_of_a;
   std::map<std::int32_t, std::size_t> node_of_b;
   for (const auto& [label, count] : counts.a) node_of_a.emplace(label, node_of_a.size());
@@ -65,8 +42,8 @@ double matched_overlap(const Contingency& counts) {
   double sum = 0;
   for (const auto& [pair, count] : counts.both) {
     if (mate[node_of_a[pair.first]] != node_of_b[pair.second]) continue;
-    const Count of_a = counts.a.at(pair.first);
-    const Count joined = of_a + counts.b.at(pair.second) - count;
+    const Contingency::Count of_a = counts.a.at(pair.first);
+    const Contingency::Count joined = of_a + counts.b.at(pair.second) - count;
     sum += static_cast<double>(of_a) * static_cast<double>(count) / static_cast<double>(joined);
   }
   return sum / static_cast<double>(counts.all);
@@ -76,8 +53,8 @@ double matched_overlap(const Contingency& counts) {
 
 PartitionAgreement partition_agreement(std::span<const std::int32_t> a,
                                        std::span<const std::int32_t> b) {
-  PartitionAgreement agreement{.adjusted_rand = adjusted_rand_index(a, b)};
-  const Contingency counts = count_places(a, b);
+  const Contingency counts = contingency(a, b);
+  PartitionAgreement agreement{.adjusted_rand = adjusted_rand_index(counts)};
   if (counts.all == 0) return agreement;
   // Rounding may leave a little less than none.
   agreement.variation_of_information = std::max(conditional_entropies(counts), 0.0);

@@ -14,6 +14,7 @@ struct PartitionAgreement {
   /// the volumes of A as weights; what has no partner counts 0. The matching is one to one, and the
   /// one with the largest common volume. 1: the same.
   double matched_iou = 1;
+  bool operator==(const PartitionAgreement&) const = default;
 };
 
 /// Of two labellings of the same places; only places count where both are >= 0. Where there are

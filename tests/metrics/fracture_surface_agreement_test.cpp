@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "geometry/measures.h"
 #include "synthetic.h"
 
 namespace fracbench {
@@ -77,6 +80,27 @@ TEST(FragmentChamfer, GrowsWithTheDistanceOfTheCuts) {
     EXPECT_GT(distance, last);
     last = distance;
   }
+}
+
+TEST(FragmentChamfer, MatchesEachFragmentWithTheNearestOfAll) {
+  const std::vector<Vec3> upright{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  const std::vector<Vec3> slanted{Vec3(1, 0.2, 0), Vec3(0.1, 1, 0.3), Vec3(-0.2, 0, 1)};
+  const Fragments a = cut_all(box(), Vec3(0.5, 0.4, 0.7), upright);
+  const Fragments b = cut_all(box(), Vec3(0.6, 0.5, 0.3), slanted);
+  Random random(7);
+  std::vector<double> of_a(a.size(), 10), of_b(b.size(), 10);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const double chamfer = fragment_chamfer({a[i]}, {b[j]}, 2000, random).value();
+      of_a[i] = std::min(of_a[i], chamfer);
+      of_b[j] = std::min(of_b[j], chamfer);
+    }
+  }
+  double expected = 0;  // the cube has the volume 1
+  for (std::size_t i = 0; i < a.size(); ++i) expected += volume(a[i].mesh) * of_a[i] / 2;
+  for (std::size_t j = 0; j < b.size(); ++j) expected += volume(b[j].mesh) * of_b[j] / 2;
+  const double measured = fragment_chamfer(a, b, 2000, random).value();
+  EXPECT_NEAR(measured, expected, 0.02 * expected);  // other points are drawn
 }
 
 TEST(FragmentChamfer, IsTheSameBothWaysAndScalesWithTheBody) {
