@@ -14,7 +14,9 @@ namespace fracbench {
 
 /// What reports need of one cell: everything in its record but the meshes and the trajectory.
 struct CellSummary {
-  std::string key;      ///< of the record, 64 hexadecimal digits
+  std::string key;  ///< of the record, 64 hexadecimal digits
+  /// SHA-256 of the record's result; empty where the summary does not come from a results folder.
+  std::string result_digest = {};
   Name method;          ///< name in the registry
   Name label;           ///< name in the suite; the same as `method` unless the suite says otherwise
   Name method_options;  ///< JSON, defaults included

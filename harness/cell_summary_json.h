@@ -6,7 +6,7 @@
 
 namespace fracbench {
 
-/// All that a summary holds; numbers keep all their bits.
+/// All that a summary holds but for the result's digest; numbers keep all their bits.
 nlohmann::ordered_json to_json(const CellSummary& cell);
 
 /// The other way round. Throws nlohmann::json::exception or std::bad_optional_access where the

@@ -191,10 +191,12 @@ bool is_packed_array(std::string_view path) { return path != "result/trajectory/
 CellSummary to_summary(const DataTree& tree) {
   require_version(tree);
   const DataTree result = subtree(tree, "result/");
-  return to_summary({.key = tree.text("key"),
-                     .identity = get_identity(result),
-                     .outcome = get_outcome(result),
-                     .cost = get_cost(subtree(tree, "machine/"))});
+  CellSummary summary = to_summary({.key = tree.text("key"),
+                                    .identity = get_identity(result),
+                                    .outcome = get_outcome(result),
+                                    .cost = get_cost(subtree(tree, "machine/"))});
+  summary.result_digest = tree.text("result_digest");
+  return summary;
 }
 
 CellSummary to_summary(const Record& record) {

@@ -88,6 +88,7 @@ bool is_packed_array(std::string_view path);
 /// From a tree that holds at least the arrays of is_summary_array. Digests are not verified: see
 /// require_intact.
 CellSummary to_summary(const DataTree& tree);
+/// The same but for the digest, which stays empty: it takes as long as packing the record.
 CellSummary to_summary(const Record& record);
 
 }  // namespace fracbench

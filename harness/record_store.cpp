@@ -39,8 +39,9 @@ void require_results_folder(const fs::path& folder) {
   for (const auto& item : fs::directory_iterator(folder)) {
     const std::string name = item.path().filename().string();
     // What the program itself puts there, `report` included.
-    constexpr std::array kOwn = {"records",  "claims",        "shapes",          "report",
-                                 "learning", "learning.json", "suite.json.part", "summaries"};
+    constexpr std::array kOwn = {"records",         "claims",    "shapes",
+                                 "report",          "learning",  "learning.json",
+                                 "suite.json.part", "summaries", "agreements"};
     if (std::ranges::find(kOwn, name) != kOwn.end()) continue;
     throw InputError(
         fmt::format("{}: holds '{}', which does not belong to a results folder; choose an empty or "
@@ -124,9 +125,13 @@ bool RecordStore::contains(std::string_view key) const { return fs::exists(recor
 
 Record RecordStore::read(std::string_view key) const { return read_record(folder_, key); }
 
-void RecordStore::write(const Claim&, const Record& record) const {
+CellSummary RecordStore::write(const Claim&, const Record& record) const {
   const fs::path file = record_file(record.key);
-  write_file_atomically(file, to_hdf5(to_tree(record), is_packed_array), part_of(file));
+  const DataTree tree = to_tree(record);
+  write_file_atomically(file, to_hdf5(tree, is_packed_array), part_of(file));
+  CellSummary summary = to_summary(record);
+  summary.result_digest = tree.text("result_digest");
+  return summary;
 }
 
 fs::path RecordStore::set_aside(const Claim&, std::string_view key, std::string_view why) const {

@@ -36,6 +36,7 @@ TriangleMesh read_target(const std::filesystem::path& folder, std::string_view d
 ///   shapes/<digest>.h5    the meshes of the targets
 ///   claims/               which cells somebody is working on
 ///   summaries/            what the records say, for whoever needs no more (SummaryCache)
+///   agreements/           how well fractures agree with the reference (AgreementCache)
 /// Any number of threads, processes and machines may use it at the same time.
 class RecordStore {
  public:
@@ -59,9 +60,10 @@ class RecordStore {
   /// record of this key.
   Record read(std::string_view key) const;
 
-  /// Writes the record; it is on the disk when this returns. Throws InputError where it cannot be
-  /// written (disk full), and leaves nothing behind. For the holder of the key's claim.
-  void write(const Claim& claim, const Record& record) const;
+  /// Writes the record; it is on the disk when this returns. Returns its summary. Throws InputError
+  /// where it cannot be written (disk full), and leaves nothing behind. For the holder of the key's
+  /// claim.
+  CellSummary write(const Claim& claim, const Record& record) const;
 
   /// Renames a record that cannot be used, so that the cell is measured again and nothing is lost:
   /// "<key>.h5.<why>". Returns the new name. For the holder of the key's claim.

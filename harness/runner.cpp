@@ -177,8 +177,7 @@ class Run {
     if (take_found(cell, &*claim)) return true;
     const auto start = Clock::now();
     const Record record = execute(cell, index);
-    store_.write(*claim, record);
-    summaries_.add(store_.record_file(cell.key), to_summary(record));
+    summaries_.add(store_.record_file(cell.key), store_.write(*claim, record));
     const std::chrono::duration<double> seconds = Clock::now() - start;
     note(cell, record.outcome.status, seconds.count(), false);
     if (is_lost(record.outcome.status)) say_lost(cell, record.outcome);

@@ -1,16 +1,11 @@
 #include "harness/summary_cache.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <thread>
 
-#include "core/digest.h"
 #include "core/error.h"
 #include "harness/cell_summary_json.h"
 #include "harness/data_file.h"
@@ -24,19 +19,11 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::string_view kEnding = ".jsonl";
-constexpr std::size_t kChecksumDigits = 16;
 constexpr std::size_t kLinesAtATime = 256;
 
 // Times of files go in ticks of some milliseconds. What changes twice within one looks as it was;
 // so a line is written only when a later change must show.
 constexpr auto kTick = std::chrono::milliseconds(20);
-
-std::string checksum(std::string_view text) {
-  Digest digest;
-  digest.add(text);
-  return digest.hex().substr(0, kChecksumDigits);
-}
 
 /// Reports believe nothing that cannot be verified, and the digests are over whole records.
 CellSummary read_verified(const fs::path& record) {
@@ -50,11 +37,20 @@ CellSummary read_verified(const fs::path& record) {
 
 }  // namespace
 
-SummaryCache::SummaryCache(const fs::path& folder) : folder_(folder / "summaries") {
-  std::error_code none;
-  for (const auto& item : fs::directory_iterator(folder_, none)) {
-    if (item.path().extension() == kEnding) load(item.path());
-  }
+SummaryCache::SummaryCache(const fs::path& folder) : lines_(folder / "summaries") {
+  lines_.read([this](const Json& line) {
+    const Json& stamp = line.at("record");
+    Known known{.stamp = {.inode = stamp.at(0),
+                          .size = stamp.at(1),
+                          .modified = stamp.at(2),
+                          .changed = stamp.at(3)},
+                .summary = cell_summary_from_json(line.at("cell"))};
+    known.summary.result_digest = line.at("result_digest");
+    std::string key = known.summary.key;
+    // A record that was made again stands in several lines; the youngest is of the file that is.
+    Known& kept = known_[std::move(key)];
+    if (known.stamp.changed >= kept.stamp.changed) kept = std::move(known);
+  });
 }
 
 SummaryCache::~SummaryCache() {
@@ -98,8 +94,8 @@ void SummaryCache::add(const fs::path& record, const Stamp& stamp, const CellSum
     return;  // text that is no UTF-8
   }
   const std::scoped_lock lock(mutex_);
-  if (!writable_) return;
-  added_.push_back({record, stamp, std::move(json), Clock::now()});
+  if (!lines_.writable()) return;
+  added_.push_back({record, stamp, summary.result_digest, std::move(json), Clock::now()});
   if (added_.size() % kLinesAtATime == 0) write_settled();
 }
 
@@ -115,35 +111,8 @@ SummaryCache::Stamp SummaryCache::stamp_of(const fs::path& record) {
           .changed = nanoseconds(status.st_ctim)};
 }
 
-void SummaryCache::load(const fs::path& file) {
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) load_line(line);
-}
-
-/// A line that was cut short, or damaged, says nothing: its record is read instead.
-void SummaryCache::load_line(const std::string& line) {
-  if (line.size() <= kChecksumDigits) return;
-  const std::string_view text = std::string_view(line).substr(kChecksumDigits + 1);
-  if (checksum(text) != line.substr(0, kChecksumDigits)) return;
-  try {
-    const Json json = Json::parse(text);
-    const Json& stamp = json.at("record");
-    Known known{.stamp = {.inode = stamp.at(0),
-                          .size = stamp.at(1),
-                          .modified = stamp.at(2),
-                          .changed = stamp.at(3)},
-                .summary = cell_summary_from_json(json.at("cell"))};
-    std::string key = known.summary.key;
-    // A record that was made again stands in several lines; the youngest is of the file that is.
-    Known& kept = known_[std::move(key)];
-    if (known.stamp.changed >= kept.stamp.changed) kept = std::move(known);
-  } catch (const Json::exception&) {
-  } catch (const std::bad_optional_access&) {
-  }
-}
-
 void SummaryCache::write_settled() {
-  std::string lines;
+  std::vector<std::string> lines;
   std::vector<Added> fresh;
   const auto now = Clock::now();
   for (Added& item : added_) {
@@ -151,26 +120,13 @@ void SummaryCache::write_settled() {
       fresh.push_back(std::move(item));
     } else if (stamp_of(item.record) == item.stamp) {
       const Stamp& s = item.stamp;
-      const std::string text = fmt::format(R"({{"record":[{},{},{},{}],"cell":{}}})", s.inode,
-                                           s.size, s.modified, s.changed, item.json);
-      lines += checksum(text) + " " + text + "\n";
+      lines.push_back(fmt::format(R"({{"record":[{},{},{},{}],"result_digest":"{}","cell":{}}})",
+                                  s.inode, s.size, s.modified, s.changed, item.result_digest,
+                                  item.json));
     }
   }
   added_ = std::move(fresh);
-  if (!lines.empty()) append(lines);
-}
-
-void SummaryCache::append(const std::string& lines) {
-  std::error_code none;
-  fs::create_directory(folder_, none);
-  if (file_.empty()) {
-    std::random_device device;
-    file_ = folder_ / fmt::format("{:08x}{:08x}{}", device(), device(), kEnding);
-  }
-  const int file = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  writable_ =
-      file >= 0 && ::write(file, lines.data(), lines.size()) == static_cast<ssize_t>(lines.size());
-  if (file >= 0) ::close(file);
+  lines_.append(lines);
 }
 
 }  // namespace fracbench

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "harness/cell_summary.h"
+#include "harness/kept_lines.h"
 
 namespace fracbench {
 
 /// What the records of one results folder say, without reading them again: a record takes
 /// milliseconds to open and verify, its summary microseconds. The summaries lie in
-/// summaries/*.jsonl beside the records, a line for each record, with a checksum and with what the
-/// file system knew of the record when it was verified (inode, size, times of change). A record
-/// that was touched since is read and verified anew. Losing the folder costs time alone; where it
-/// cannot be written, nothing is kept and nobody is bothered.
+/// summaries/ beside the records (KeptLines), a line for each record, with what the file system
+/// knew of the record when it was verified (inode, size, times of change). A record that was
+/// touched since is read and verified anew.
 ///
 /// From any number of threads and processes.
 class SummaryCache {
@@ -54,24 +54,20 @@ class SummaryCache {
   struct Added {
     std::filesystem::path record;
     Stamp stamp;
+    std::string result_digest;
     std::string json;
     std::chrono::steady_clock::time_point when;
   };
 
   CellSummary find(const std::filesystem::path& record, bool keep);
   static Stamp stamp_of(const std::filesystem::path& record);
-  void load(const std::filesystem::path& file);
-  void load_line(const std::string& line);
   void add(const std::filesystem::path& record, const Stamp& stamp, const CellSummary& summary);
   void write_settled();
-  void append(const std::string& lines);
 
-  const std::filesystem::path folder_;
   std::mutex mutex_;  // guards all that follows
+  KeptLines lines_;
   std::map<std::string, Known> known_;
   std::vector<Added> added_;
-  std::filesystem::path file_;  ///< this process's own; empty until it has something to say
-  bool writable_ = true;
 };
 
 }  // namespace fracbench

@@ -132,6 +132,7 @@ TEST(RecordTest, ASummaryNeedsNeitherMeshesNorTrajectory) {
   EXPECT_EQ(summary.breaks, 3);
   EXPECT_EQ(summary.cpu, "a processor");
   EXPECT_EQ(summary.total_seconds, 0.75);
+  EXPECT_EQ(summary.result_digest, result_digest(sample_record()));
 }
 
 TEST(RecordTest, IsRefusedWhereItsDigestDoesNotMatch) {

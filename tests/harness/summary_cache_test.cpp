@@ -35,7 +35,9 @@ class SummaryCacheTest : public testing::Test {
 
   std::string everything() const {
     std::string text;
-    for (const CellSummary& cell : read_results(folder).cells) text += to_json(cell).dump() + "\n";
+    for (const CellSummary& cell : read_results(folder).cells) {
+      text += to_json(cell).dump() + " " + cell.result_digest + "\n";
+    }
     return text;
   }
 
