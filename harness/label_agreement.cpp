@@ -14,7 +14,7 @@ void add_label_agreement(const std::filesystem::path& folder, Results& results) 
   for (const ReferenceAgreement& pair : agreement_with_reference(folder, results.cells)) {
     if (pair.other_impact) continue;
     agreement[{pair.shape, pair.label, pair.family, pair.scenario, pair.repeat}] =
-        pair.partition.adjusted_rand;
+        pair.agreement.partition.adjusted_rand;
   }
   for (CellSummary& cell : results.cells) {
     const auto found =

@@ -30,7 +30,7 @@ class Evidence {
     for (const ReferenceAgreement& a : input.agreements) {
       if (a.shape != shape.shape) continue;
       const std::string label = a.other_impact ? std::string(kAnotherImpact) : a.label;
-      agreement_[{label, a.family, a.scenario, a.repeat}] = a.partition.adjusted_rand;
+      agreement_[{label, a.family, a.scenario, a.repeat}] = a.agreement.partition.adjusted_rand;
     }
   }
 

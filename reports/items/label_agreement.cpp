@@ -15,13 +15,13 @@ namespace {
 /// The pairs of one method and shape.
 struct Row {
   std::string shape, method, label;
-  std::vector<const ReferenceAgreement*> pairs;
+  std::vector<const FractureAgreement*> pairs;
 
   /// What they have of one quantity.
   template <typename Quantity>
   std::vector<double> values(const Quantity& quantity) const {
     std::vector<double> result;
-    for (const ReferenceAgreement* pair : pairs) {
+    for (const FractureAgreement* pair : pairs) {
       if (const std::optional<double> value = quantity(*pair)) result.push_back(*value);
     }
     return result;
@@ -38,7 +38,7 @@ std::vector<Row> rows_of(const ReportInput& input) {
     auto row = std::ranges::find_if(
         rows, [&](const Row& r) { return r.shape == pair.shape && r.method == method; });
     if (row == rows.end()) row = rows.insert(rows.end(), {pair.shape, method, pair.label, {}});
-    row->pairs.push_back(&pair);
+    row->pairs.push_back(&pair.agreement);
   }
   return rows;
 }
@@ -91,7 +91,7 @@ Table distance_table(const std::vector<Row>& rows) {
       return number_or_nothing(values.empty() ? std::nullopt
                                               : std::optional(summarize(values).mean));
     };
-    using Pair = ReferenceAgreement;
+    using Pair = FractureAgreement;
     using Value = std::optional<double>;
     table.rows.push_back(
         {row.shape, row.method,

@@ -100,7 +100,7 @@ std::map<std::string, double> agreements_by_cell(const ReportInput& input) {
   for (const ReferenceAgreement& pair : input.agreements) {
     if (pair.other_impact) continue;
     by_place[{pair.shape, pair.family, pair.scenario, pair.repeat, pair.label}] =
-        pair.partition.adjusted_rand;
+        pair.agreement.partition.adjusted_rand;
   }
   std::map<std::string, double> result;
   for (const CellSummary& cell : input.cells) {

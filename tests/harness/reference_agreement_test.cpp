@@ -33,8 +33,8 @@ TEST_F(ReferenceAgreementTest,
   for (const ReferenceAgreement& pair : pairs) {
     ++(pair.other_impact ? floors : others)[pair.shape];
     EXPECT_EQ(pair.label, pair.other_impact ? "halves" : "halves-wide");
-    EXPECT_LE(pair.partition.adjusted_rand, 1);
-    EXPECT_LT(pair.partition.adjusted_rand, 0.999);  // planes drawn from other seeds
+    EXPECT_LE(pair.agreement.partition.adjusted_rand, 1);
+    EXPECT_LT(pair.agreement.partition.adjusted_rand, 0.999);  // planes drawn from other seeds
   }
   EXPECT_EQ(floors, (std::map<std::string, int>{{"box", 3}, {"slab", 3}}));
   EXPECT_EQ(others, floors);
@@ -53,7 +53,7 @@ TEST_F(ReferenceAgreementTest, TheSameFragmentsAgreeInFull) {
   for (const ReferenceAgreement& pair :
        agreement_with_reference(folder, twice, {.reference = "halves"})) {
     if (pair.other_impact) continue;
-    EXPECT_EQ(pair.partition.adjusted_rand, 1);
+    EXPECT_EQ(pair.agreement.partition.adjusted_rand, 1);
     ++compared;
   }
   EXPECT_EQ(compared, 6);

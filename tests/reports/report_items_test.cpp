@@ -169,14 +169,14 @@ TEST(LabelAgreementItem, PoolsByShapeAndMethodAndTellsTheFloorApart) {
                                 .label = "cvd",
                                 .family = "single",
                                 .scenario = "single-0000",
-                                .partition = {.adjusted_rand = index}});
+                                .agreement = {.partition = {.adjusted_rand = index}}});
   }
   input.agreements.push_back({.shape = "pot",
                               .label = "bem",
                               .family = "single",
                               .scenario = "single-0000",
                               .other_impact = true,
-                              .partition = {.adjusted_rand = 0.1}});
+                              .agreement = {.partition = {.adjusted_rand = 0.1}}});
   const Table shown = table(section(input, "label_agreement"), "label_agreement");
   ASSERT_EQ(shown.rows.size(), 2u);
   EXPECT_DOUBLE_EQ(number(at(shown, 0, "mean")), 0.3);
@@ -286,11 +286,12 @@ TEST(ClaimsItem, judges_what_is_nearer_to_the_reference) {
   input.cells = cells;
   for (const CellSummary& cell : cells) {
     if (cell.label == "bem") continue;
-    input.agreements.push_back({.shape = cell.shape,
-                                .label = cell.label,
-                                .family = cell.family,
-                                .scenario = cell.scenario,
-                                .partition = {.adjusted_rand = cell.label == "modes" ? 0.9 : 0.1}});
+    input.agreements.push_back(
+        {.shape = cell.shape,
+         .label = cell.label,
+         .family = cell.family,
+         .scenario = cell.scenario,
+         .agreement = {.partition = {.adjusted_rand = cell.label == "modes" ? 0.9 : 0.1}}});
   }
   const Table claims = table(section(input, "claims"), "claims");
   std::map<std::string, std::string> verdicts;
