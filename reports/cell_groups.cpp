@@ -94,6 +94,25 @@ std::vector<std::vector<CellRef>> by_collision(std::span<const CellRef> cells) {
   return collisions;
 }
 
+CollisionValues::CollisionValues(
+    std::span<const std::vector<CellRef>> collisions,
+    const std::function<std::optional<double>(const CellSummary&)>& value) {
+  for (const std::vector<CellRef>& cells : collisions) {
+    std::vector<double>& values = values_.emplace_back();
+    for (const CellSummary& cell : cells) {
+      if (const auto found = value(cell)) values.push_back(*found);
+    }
+  }
+}
+
+std::vector<double> CollisionValues::of(std::span<const std::size_t> chosen) const {
+  std::vector<double> pooled;
+  for (const std::size_t c : chosen) {
+    pooled.insert(pooled.end(), values_[c].begin(), values_[c].end());
+  }
+  return pooled;
+}
+
 TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
                    const ReportInput& input, std::string_view name) {
   std::vector<std::size_t> all(collisions);
@@ -122,19 +141,15 @@ TableCell estimate(std::span<const CellRef> cells,
 
 TableCell estimated_mean(std::span<const CellRef> cells, std::string_view metric,
                          const ReportInput& input) {
-  std::vector<std::vector<double>> values;
-  for (const std::vector<CellRef>& collision : by_collision(cells)) {
-    values.push_back(values_of(collision, metric));
-  }
+  const std::vector<std::vector<CellRef>> collisions = by_collision(cells);
+  const CollisionValues values(collisions,
+                               [&](const CellSummary& cell) { return value_of(cell, metric); });
   const auto mean = [&](std::span<const std::size_t> chosen) -> std::optional<double> {
-    std::vector<double> pooled;
-    for (const std::size_t c : chosen) {
-      pooled.insert(pooled.end(), values[c].begin(), values[c].end());
-    }
+    const std::vector<double> pooled = values.of(chosen);
     if (pooled.empty()) return std::nullopt;
     return summarize(pooled).mean;
   };
-  return estimate(values.size(), mean, input, metric);
+  return estimate(collisions.size(), mean, input, metric);
 }
 
 }  // namespace fracbench

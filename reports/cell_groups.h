@@ -49,6 +49,20 @@ std::vector<double> values_of(std::span<const CellRef> cells, std::string_view m
 /// in which they first appear. These are the clusters of the bootstrap.
 std::vector<std::vector<CellRef>> by_collision(std::span<const CellRef> cells);
 
+/// Numbers of cells, collision by collision, ready to be drawn again and again.
+class CollisionValues {
+ public:
+  /// `value` tells that of a cell, where it has one.
+  CollisionValues(std::span<const std::vector<CellRef>> collisions,
+                  const std::function<std::optional<double>(const CellSummary&)>& value);
+
+  /// The values of these collisions together; of one that is named twice, twice.
+  std::vector<double> of(std::span<const std::size_t> chosen) const;
+
+ private:
+  std::vector<std::vector<double>> values_;
+};
+
 /// The statistic of all cells with its interval from resampling whole collisions; only the value
 /// where there is no interval, nothing where there is no value. `name` sets the random numbers
 /// apart from those of other statistics.

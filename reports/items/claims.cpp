@@ -46,71 +46,75 @@ class Evidence {
         pooled.insert(pooled.end(), group.cells.begin(), group.cells.end());
       }
     }
-    const auto statistic = [&](std::span<const CellRef> cells) {
-      return value(claim, other, cells);
-    };
-    return estimate(pooled, statistic, input_,
+    const Collisions collisions = by_collision(pooled);
+    return estimate(collisions.size(), statistic(claim, other, collisions), input_,
                     fmt::format("{} {} {}", shape_.shape, claim.name, other));
   }
 
  private:
-  static Cells of(std::span<const CellRef> cells, std::string_view label) {
-    Cells result;
-    for (const CellSummary& cell : cells) {
-      if (cell.label == label) result.emplace_back(cell);
-    }
-    return result;
-  }
+  using Collisions = std::vector<Cells>;
+  using Chosen = std::span<const std::size_t>;
 
-  std::optional<double> value(const Claim& claim, const std::string& other,
-                              std::span<const CellRef> cells) const {
+  ClusterStatistic statistic(const Claim& claim, const std::string& other,
+                             const Collisions& collisions) const {
+    const auto& subject = claim.subject;
     if (claim.statistic == "volume-distance") {
-      return difference(volume_distance(cells, other), volume_distance(cells, claim.subject));
+      const auto volumes = [&](std::string_view label) {
+        return CollisionVolumes(collisions, label, shape_.cut);
+      };
+      return nearer(volumes(subject), volumes(other), volumes(kReference),
+                    [](auto a, auto b) { return wasserstein(a, b); });
     }
     if (claim.statistic == "agreement") {
-      return difference(agreement(cells, claim.subject), agreement(cells, other));
+      return above(agreements(collisions, subject), agreements(collisions, other));
     }
-    const auto mean = [&](std::string_view label) { return mean_of(claim.metric, cells, label); };
-    if (claim.statistic == "mean-difference") return difference(mean(claim.subject), mean(other));
+    const auto values = [&](std::string_view label) {
+      return CollisionValues(collisions, [&](const CellSummary& cell) {
+        return cell.label == label ? value_of(cell, claim.metric) : std::nullopt;
+      });
+    };
+    if (claim.statistic == "mean-difference") return above(values(subject), values(other));
     if (claim.statistic == "mean-distance") {
-      const auto off = [&](std::string_view label) -> std::optional<double> {
-        const auto d = difference(mean(label), mean(kReference));
-        return d ? std::optional(std::abs(*d)) : std::nullopt;
-      };
-      return difference(off(other), off(claim.subject));
+      return nearer(values(subject), values(other), values(kReference),
+                    [](auto a, auto b) { return std::abs(mean(a) - mean(b)); });
     }
     throw InputError(fmt::format("published claim '{}': there is no statistic '{}'", claim.name,
                                  claim.statistic));
   }
 
-  static std::optional<double> difference(std::optional<double> a, std::optional<double> b) {
-    return a && b ? std::optional(*a - *b) : std::nullopt;
+  CollisionValues agreements(const Collisions& collisions, const std::string& label) const {
+    const std::string_view cells_of = label == kAnotherImpact ? kReference : label;
+    return {collisions, [&](const CellSummary& cell) -> std::optional<double> {
+              if (cell.label != cells_of) return std::nullopt;
+              const auto found = agreement_.find({label, cell.family, cell.scenario, cell.repeat});
+              return found == agreement_.end() ? std::nullopt : std::optional(found->second);
+            }};
   }
 
-  static std::optional<double> mean_of(const std::string& metric, std::span<const CellRef> cells,
-                                       std::string_view label) {
-    const std::vector<double> values = values_of(of(cells, label), metric);
-    return values.empty() ? std::nullopt : std::optional(summarize(values).mean);
+  static double mean(std::span<const double> values) { return summarize(values).mean; }
+
+  /// How much larger the mean of the subject is than that of the other.
+  static ClusterStatistic above(CollisionValues subject, CollisionValues other) {
+    return [subject = std::move(subject),
+            other = std::move(other)](Chosen chosen) -> std::optional<double> {
+      const std::vector<double> a = subject.of(chosen);
+      const std::vector<double> b = other.of(chosen);
+      if (a.empty() || b.empty()) return std::nullopt;
+      return mean(a) - mean(b);
+    };
   }
 
-  /// Of the fragment volumes of a method to those of the reference.
-  std::optional<double> volume_distance(std::span<const CellRef> cells,
-                                        std::string_view label) const {
-    const std::vector<double> a = volumes_above(of(cells, label), shape_.cut);
-    const std::vector<double> b = volumes_above(of(cells, kReference), shape_.cut);
-    if (a.empty() || b.empty()) return std::nullopt;
-    return wasserstein(a, b);
-  }
-
-  std::optional<double> agreement(std::span<const CellRef> cells, const std::string& label) const {
-    const bool floor = label == kAnotherImpact;
-    std::vector<double> values;
-    for (const CellSummary& cell : cells) {
-      if (cell.label != (floor ? kReference : std::string_view(label))) continue;
-      const auto found = agreement_.find({label, cell.family, cell.scenario, cell.repeat});
-      if (found != agreement_.end()) values.push_back(found->second);
-    }
-    return values.empty() ? std::nullopt : std::optional(summarize(values).mean);
+  /// How much nearer to the reference the subject is than the other.
+  template <typename Data, typename Distance>
+  static ClusterStatistic nearer(Data subject, Data other, Data reference, Distance distance) {
+    return [subject = std::move(subject), other = std::move(other),
+            reference = std::move(reference), distance](Chosen chosen) -> std::optional<double> {
+      const std::vector<double> a = subject.of(chosen);
+      const std::vector<double> b = other.of(chosen);
+      const std::vector<double> c = reference.of(chosen);
+      if (a.empty() || b.empty() || c.empty()) return std::nullopt;
+      return distance(b, c) - distance(a, c);
+    };
   }
 
   const ShapeVolumes& shape_;
