@@ -6,9 +6,11 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <mutex>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "geometry/write_motion.h"
 #include "harness/record_store.h"
 #include "reports/page/html_page.h"
@@ -44,89 +46,109 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-/// A record with its target, read for one use after the other.
-class Reader {
+/// Makes the files that a page shows of single cells, each from one look at the cell's record.
+class CellFiles {
  public:
-  explicit Reader(const fs::path& results) : results_(results) {}
+  CellFiles(const ReportInput& input, const fs::path& results, const fs::path& folder, bool viewer,
+            const PageFilesOptions& options)
+      : cells_(input.cells), results_(results), viewer_(viewer), options_(options) {
+    if (viewer) make_folder(cell_folder_ = folder / "cells");
+    const fs::path pictures = folder / "pictures";
+    make_folder(pictures);
+    for (const SheetRow& row : sheet_rows(cells_)) {
+      for (const auto& [method, cell] : row.cells) {
+        pictures_[cell] = pictures / (picture_name(row, method) + ".png");
+      }
+    }
+  }
 
-  Record record(const std::string& key) const { return read_record(results_, key); }
-  const TriangleMesh& target(const Record& record) {
+  /// Returns the keys of the cells that the viewer can show, sorted.
+  std::vector<std::string> write() {
+    std::vector<char> viewed(cells_.size(), 0);
+    parallel_for(cells_.size(), options_.threads, [&](std::size_t i) {
+      if (options_.stop.stop_requested()) throw Cancelled();
+      viewed[i] = write(cells_[i]);
+      note_done();
+    });
+    for (const CellSummary& cell : cells_) {
+      const auto found = complaints_.find(&cell);
+      if (found != complaints_.end() && options_.message) options_.message(found->second);
+    }
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (viewed[i]) keys.push_back(cells_[i].key);
+    }
+    std::ranges::sort(keys);
+    return keys;
+  }
+
+ private:
+  /// Whether the viewer can show it. What is wrong with its data is told, and that is all.
+  bool write(const CellSummary& cell) {
+    const fs::path view = cell_folder_ / fmt::format("{}.js", cell.key);
+    const fs::path mesh = cell_folder_ / fmt::format("{}.glb", cell.key);
+    const bool shown =
+        viewer_ && (cell.status == CellStatus::ok || cell.status == CellStatus::invalid ||
+                    cell.status == CellStatus::unbroken);
+    const bool needs_view = shown && !begins_with(view, cell_view_head(cell.key));
+    const bool needs_mesh = shown && options_.meshes && !fs::exists(mesh);
+    const auto picture = pictures_.find(&cell);
+    if (!needs_view && !needs_mesh && picture == pictures_.end()) return shown;
+    try {
+      const Record record = read_record(results_, cell.key);
+      const TriangleMesh& target = target_of(record);
+      if (needs_view) write_file_atomically(view, cell_view(record, target, options_.view));
+      if (needs_mesh) {
+        const SceneResult& scene = record.outcome.scene;
+        write_motion(mesh, target, scene.fragments, scene.trajectory, ball_radii(record));
+      }
+      if (picture != pictures_.end()) write_picture(picture->second, record, target);
+    } catch (const DataError& error) {
+      const std::scoped_lock lock(mutex_);
+      complaints_[&cell] = fmt::format("{} {} {}: cannot be shown: {}", cell.shape, cell.scenario,
+                                       cell.label, error.what());
+      return shown && !needs_view && !needs_mesh;
+    }
+    return shown;
+  }
+
+  const TriangleMesh& target_of(const Record& record) {
+    const std::scoped_lock lock(mutex_);
     TriangleMesh& mesh = targets_[record.identity.shape_digest];
     if (mesh.empty()) mesh = read_target(results_, record.identity.shape_digest);
     return mesh;
   }
 
- private:
+  /// Twice as fine as it is shown.
+  void write_picture(const fs::path& file, const Record& record, const TriangleMesh& target) {
+    const RecordPictureOptions options{.width = 2 * kThumbnail, .height = 2 * kThumbnail};
+    const Picture picture = [&] {
+      const std::scoped_lock one_at_a_time(renderer_);
+      return picture_of(record, target, options);
+    }();
+    write_file_atomically(file, png_bytes(picture));
+  }
+
+  void note_done() {
+    const std::scoped_lock lock(mutex_);
+    ++done_;
+    if (!options_.progress) return;
+    options_.progress->update("cells for the page",
+                              static_cast<double>(done_) / static_cast<double>(cells_.size()));
+  }
+
+  const std::vector<CellSummary>& cells_;
   const fs::path& results_;
+  const bool viewer_;
+  const PageFilesOptions& options_;
+  fs::path cell_folder_;
+  std::map<const CellSummary*, fs::path> pictures_;  ///< one of each method and shape
+  std::mutex renderer_;
+  std::mutex mutex_;  // guards all that follows
   std::map<std::string, TriangleMesh> targets_;
+  std::map<const CellSummary*, std::string> complaints_;
+  std::size_t done_ = 0;
 };
-
-/// Does something for a cell; what is wrong with its data is told, and that is all.
-bool attempt(const CellSummary& cell, const PageFilesOptions& options,
-             const std::function<void()>& work) {
-  if (options.stop.stop_requested()) throw Cancelled();
-  try {
-    work();
-    return true;
-  } catch (const DataError& error) {
-    if (options.message) {
-      options.message(fmt::format("{} {} {}: cannot be shown: {}", cell.shape, cell.scenario,
-                                  cell.label, error.what()));
-    }
-    return false;
-  }
-}
-
-/// Writes the files of all cells; returns the keys of those that there is one for, sorted.
-std::vector<std::string> write_cells(const ReportInput& input, Reader& reader,
-                                     const fs::path& folder, const PageFilesOptions& options) {
-  make_folder(folder);
-  std::vector<std::string> keys;
-  for (const CellSummary& cell : input.cells) {
-    const fs::path file = folder / fmt::format("{}.js", cell.key);
-    const bool broken = cell.status == CellStatus::ok || cell.status == CellStatus::invalid;
-    if (!broken && cell.status != CellStatus::unbroken) continue;
-    const fs::path mesh = folder / fmt::format("{}.glb", cell.key);
-    const bool has_view = begins_with(file, cell_view_head(cell.key));
-    const bool has_mesh = !options.meshes || fs::exists(mesh);
-    const bool there =
-        (has_view && has_mesh) || attempt(cell, options, [&] {
-          const Record record = reader.record(cell.key);
-          const TriangleMesh& target = reader.target(record);
-          if (!has_view) {
-            write_file_atomically(file, cell_view(record, target, options.view));
-          }
-          if (!has_mesh) {
-            const SceneResult& scene = record.outcome.scene;
-            write_motion(mesh, target, scene.fragments, scene.trajectory, ball_radii(record));
-          }
-        });
-    if (there) keys.push_back(cell.key);
-    if (options.progress) {
-      const auto done = static_cast<double>(&cell - input.cells.data() + 1);
-      options.progress->update("cells for the viewer",
-                               done / static_cast<double>(input.cells.size()));
-    }
-  }
-  std::ranges::sort(keys);
-  return keys;
-}
-
-/// One picture of each method and shape, twice as fine as it is shown.
-void write_pictures(const ReportInput& input, Reader& reader, const fs::path& folder,
-                    const PageFilesOptions& options) {
-  make_folder(folder);
-  for (const SheetRow& row : sheet_rows(input.cells)) {
-    for (const auto& [method, cell] : row.cells) {
-      attempt(*cell, options, [&] {
-        const Record record = reader.record(cell->key);
-        const Picture picture = picture_of(record, reader.target(record),
-                                           {.width = 2 * kThumbnail, .height = 2 * kThumbnail});
-        write_file_atomically(folder / (picture_name(row, method) + ".png"), png_bytes(picture));
-      });
-    }
-  }
-}
 
 }  // namespace
 
@@ -137,7 +159,6 @@ fs::path write_page(const ReportInput& all, const std::vector<NamedSection>& sec
                     const PageFilesOptions& options) {
   make_folder(folder);
   const std::string script = asset("page.js");
-  Reader reader(results);
   const ReportInput input{.title = all.title,
                           .cells = shown_cells(all.cells, options.cells),
                           .agreements = all.agreements,
@@ -146,11 +167,8 @@ fs::path write_page(const ReportInput& all, const std::vector<NamedSection>& sec
                           .bootstrap = all.bootstrap,
                           .seed = all.seed};
   PageOptions page{.script = !script.empty(), .viewed = {}, .commands = options.commands};
-  if (page.script) {
-    page.viewed = write_cells(input, reader, folder / "cells", options);
-    write_file_atomically(folder / "page.js", script);
-  }
-  write_pictures(input, reader, folder / "pictures", options);
+  page.viewed = CellFiles(input, results, folder, page.script, options).write();
+  if (page.script) write_file_atomically(folder / "page.js", script);
   page.pictures = true;
   page.meshes = options.meshes;
   page.cells = all.cells.size();

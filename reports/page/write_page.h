@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/progress.h"
 #include "reports/page/cell_view.h"
 #include "reports/sections.h"
@@ -16,8 +17,9 @@ namespace fracbench {
 struct PageFilesOptions {
   std::vector<std::string> commands = {};  ///< that make the results and this report
   CellViewOptions view = {};
-  std::size_t cells = 1000;  ///< how many are shown one by one at most, see shown_cells
-  bool meshes = false;       ///< also whole meshes with their motion, cells/<key>.glb
+  std::size_t cells = 1000;          ///< how many are shown one by one at most, see shown_cells
+  bool meshes = false;               ///< also whole meshes with their motion, cells/<key>.glb
+  int threads = hardware_threads();  ///< the same files for any number of them
   std::stop_token stop = {};
   Progress* progress = nullptr;
   /// Told of each cell that cannot be shown, and why: the rest of the page is made all the same.
