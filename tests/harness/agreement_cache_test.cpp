@@ -181,7 +181,7 @@ TEST_F(AgreementCacheTest, AreTheSameForAnyNumberOfThreads) {
   options.threads = 1;
   const auto computed = agreements();
   fs::remove_all(kept);
-  options.threads = 3;
+  options.threads = 2;
   EXPECT_EQ(agreements(), computed);
 }
 
