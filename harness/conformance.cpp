@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "harness/conformance/cancel.h"
+#include "harness/conformance/confined.h"
 #include "harness/conformance/memory.h"
 #include "harness/conformance/repeatability.h"
 #include "harness/conformance/sound_fragments.h"
@@ -26,6 +27,9 @@ struct Known {
 
 const std::vector<Known>& known_checks() {
   static const std::vector<Known> all = {
+      // First: a file that is there already, from an earlier check, is not left a second time.
+      {{"confined", "no file is left, changed or removed anywhere but where it works"},
+       check_confined},
       {{"tags", "every face says where it comes from, every vertex is a number"}, check_tags},
       {{"closed", "fragments are closed, oriented, free of self-intersections"},
        check_closed,

@@ -14,7 +14,7 @@ struct Check {
   std::string summary;  ///< what must hold, one line
 };
 
-/// All checks, cheapest promises first.
+/// All checks, in the order in which they are best made.
 const std::vector<Check>& conformance_checks();
 
 /// Makes one check, in this process: what crashes or hangs, takes it along. Throws InputError for

@@ -1,10 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 #include <tuple>
 
+#include "source_folder.h"
 #include "tests/app/program.h"
 
 namespace fracbench {
@@ -100,6 +104,54 @@ TEST_F(HostileMethod, ThatLeavesFilesBehindIsFound) {
   // Answers that are kept for the next impact.
   EXPECT_EQ(check("cp $1/body.obj $(dirname $0)/memo; " + two("0.4"), "tidy")["tidy"], "failed");
   EXPECT_THAT(details_["tidy"], HasSubstr("memo"));
+}
+
+/// That `confined` fails for the file, and no other check does.
+void expect_only_confined_to_fail(const std::string& method, const std::filesystem::path& file) {
+  TemporaryFolder folder;
+  const Answer answer = call("check " + method + " --json", folder.path());
+  for (const auto& row : answer.json()) {
+    if (row["check"] != "confined") {
+      EXPECT_NE(row["result"], "failed") << row;
+    } else if (row["result"] != "skipped") {
+      EXPECT_EQ(row["result"], "failed");
+      EXPECT_EQ(row["detail"], "it leaves " + file.string());
+    }
+  }
+  std::filesystem::remove(file);
+}
+
+std::filesystem::path answers_in(const std::filesystem::path& place) {
+  return place / ("fracbench-answers-" + std::to_string(::getpid()));
+}
+
+const std::string kCutter = FRACBENCH_SOURCE_DIR "/docs/examples/plane_cutter.py";
+
+TEST(CheckCommand, FindsAFileThatAScriptWritesElsewhere) {
+  TemporaryFolder folder, elsewhere;
+  const auto file = elsewhere.path() / "answers";
+  const auto script = folder.write(
+      "writing.sh", "echo x > " + file.string() + "; exec python3 " + kCutter + " $1 $2\n");
+  expect_only_confined_to_fail("external --set interpreter=sh --set program=" + script.string(),
+                               file);
+}
+
+TEST(CheckCommand, FindsAFileThatAProgramWritesElsewhereOnceAndForAll) {
+  TemporaryFolder folder;
+  const auto file = answers_in("/dev/shm");
+  std::ifstream cutter(kCutter);
+  const auto python =
+      folder.write("writing.py", "import pathlib\nanswers = pathlib.Path('" + file.string() +
+                                     "')\nif not answers.exists():\n    answers.write_text('x')\n" +
+                                     std::string(std::istreambuf_iterator<char>(cutter), {}));
+  expect_only_confined_to_fail(
+      "external --set interpreter=python3 --set program=" + python.string(), file);
+}
+
+TEST(CheckCommand, FindsAFileThatALibraryWritesElsewhere) {
+  const auto file = answers_in("/var/tmp");
+  expect_only_confined_to_fail(
+      "plugin --set library=" FRACBENCH_WRITING_PLUGIN " --set settings=" + file.string(), file);
 }
 
 TEST_F(HostileMethod, ThatTakesTooMuchMemoryIsFound) {
