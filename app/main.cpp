@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/temporary_folder.h"
 #include "core/text.h"
 #include "harness/build_info.h"
 #include "harness/catalog.h"
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "worker") return serve_cells(built_in_catalog());
   const Interrupt interrupt;
   try {
+    remove_abandoned_work_folders();
     const ExitCode code = run_program(argc, argv, interrupt.token());
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw InputError(kNoOutput);
     return static_cast<int>(code);

@@ -18,6 +18,10 @@ class TemporaryWorkFolder {
 
  private:
   std::filesystem::path path_;
+  int lock_;  ///< released by the system, too, when the process is killed
 };
+
+/// Removes such folders, of this user, that processes left which were killed.
+void remove_abandoned_work_folders();
 
 }  // namespace fracbench

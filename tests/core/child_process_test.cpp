@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -89,6 +91,43 @@ TEST(TemporaryWorkFolder, IsRemovedWithWhatIsInIt) {
     EXPECT_TRUE(std::filesystem::exists(path / "file"));
   }
   EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+/// A folder that a process made which was killed.
+std::filesystem::path abandoned_folder() {
+  const std::filesystem::path place = std::filesystem::temp_directory_path();
+  std::array<int, 2> ends{};
+  EXPECT_EQ(::pipe(ends.data()), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const TemporaryWorkFolder folder("killed");
+    const std::string name = folder.path().filename().string();
+    if (::write(ends[1], name.data(), name.size()) > 0) ::raise(SIGKILL);
+  }
+  ::close(ends[1]);
+  std::array<char, 200> name{};
+  EXPECT_GT(::read(ends[0], name.data(), name.size() - 1), 0);
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  return place / name.data();
+}
+
+TEST(TemporaryWorkFolder, IsRemovedLaterWhereItsProcessWasKilled) {
+  namespace fs = std::filesystem;
+  const auto make_old = [](const fs::path& path) {
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  };
+  const TemporaryWorkFolder in_use("test");
+  const fs::path abandoned = abandoned_folder();
+  ASSERT_TRUE(fs::exists(abandoned));
+  make_old(in_use.path());
+  remove_abandoned_work_folders();
+  EXPECT_TRUE(fs::exists(abandoned)) << "it may be of a process that is about to lock it";
+  std::ofstream(abandoned / "file") << "x";
+  make_old(abandoned);
+  remove_abandoned_work_folders();
+  EXPECT_FALSE(fs::exists(abandoned));
+  EXPECT_TRUE(fs::exists(in_use.path()));
 }
 
 }  // namespace
