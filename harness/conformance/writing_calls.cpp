@@ -12,9 +12,11 @@
 #include <cerrno>
 #include <climits>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace fracbench::conformance {
 
@@ -97,7 +99,8 @@ std::vector<sock_filter> filter() {
     }
     constexpr unsigned writes = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
     code.insert(code.end(),
-                {unless_equal(call.number, 4), load(offsetof(seccomp_data, args) + 8 * call.flags),
+                {unless_equal(call.number, 4),
+                 load(offsetof(seccomp_data, args) + sizeof(std::uint64_t) * call.flags),
                  BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, writes, 0, 1), answer(SECCOMP_RET_USER_NOTIF),
                  answer(SECCOMP_RET_ALLOW)});
   }
