@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "neural/representation_study.h"
 
 namespace fracbench {
 
@@ -102,6 +103,7 @@ nlohmann::ordered_json to_json(const Suite& suite) {
     if (!method.learn_with.empty()) entry["learn_with"] = method.learn_with;
   }
   if (suite.learning) json["learning"] = learning_json(*suite.learning);
+  if (suite.study) json["study"] = suite.study->to_json();
   return json;
 }
 
@@ -195,6 +197,54 @@ const OptionsSchema& learning_schema() {
   return schema;
 }
 
+const OptionsSchema& study_schema() {
+  using neural::StudySettings;
+  static const OptionsSchema schema = {
+      {.name = "kind",
+       .fallback = std::string("representations"),
+       .unit = "",
+       .summary = "representations: 2D Voronoi diagrams as labels, lines and distances",
+       .choices = {"representations"}},
+      {.name = "side",
+       .fallback = std::int64_t{StudySettings{}.side},
+       .unit = "pixels",
+       .summary = "of the images, a power of two",
+       .minimum = 8,
+       .maximum = 1024},
+      {.name = "patterns",
+       .fallback = std::int64_t{StudySettings{}.patterns},
+       .unit = "",
+       .summary = "diagrams, which the network learns by heart",
+       .minimum = 1,
+       .maximum = 1e6},
+      {.name = "least_sites",
+       .fallback = std::int64_t{StudySettings{}.least_sites},
+       .unit = "",
+       .summary = "of a diagram",
+       .minimum = 2,
+       .maximum = 1e4},
+      {.name = "most_sites",
+       .fallback = std::int64_t{StudySettings{}.most_sites},
+       .unit = "",
+       .summary = "of a diagram",
+       .minimum = 2,
+       .maximum = 1e4},
+      {.name = "epochs",
+       .fallback = std::int64_t{StudySettings{}.epochs},
+       .unit = "",
+       .summary = "of the training of each representation",
+       .minimum = 1,
+       .maximum = 1e6},
+      {.name = "learning_rate",
+       .fallback = StudySettings{}.learning_rate,
+       .unit = "",
+       .summary = "of the first two thirds of the epochs; then a sixth of it",
+       .minimum = 1e-9,
+       .maximum = 1},
+  };
+  return schema;
+}
+
 const OptionsSchema& limits_schema() {
   static const OptionsSchema schema = {
       {.name = "timeout_s",
@@ -249,6 +299,16 @@ void check_labels(const Suite& suite, std::string_view where) {
   if (suite.name.find('/') != std::string::npos || suite.name == "." || suite.name == "..") {
     throw InputError(fmt::format("{}: the name '{}' is a path; name the suite without slashes",
                                  where, suite.name));
+  }
+  if (suite.study) {
+    if (suite.learning || !suite.shapes.empty() || !suite.scenarios.empty() ||
+        !suite.methods.empty()) {
+      throw InputError(
+          fmt::format("{}: a suite with a table [study] has no shapes, scenarios, methods or "
+                      "learning data; put them into another suite",
+                      where));
+    }
+    return;
   }
   check_entries(suite.shapes, "shape", where);
   if (suite.learning) check_learning(suite, where);

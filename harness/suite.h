@@ -94,6 +94,7 @@ struct Suite {
   std::vector<SuiteScenario> scenarios;
   std::vector<SuiteMethod> methods;
   std::optional<SuiteLearning> learning = {};
+  std::optional<Options> study = {};    ///< values of the table [study], see harness/study.h
   std::vector<SuiteScale> scales = {};  ///< no part of what the suite is
 };
 
@@ -114,15 +115,17 @@ const OptionsSchema& suite_schema();
 const OptionsSchema& shape_schema();
 /// The values at the top of the table [learning].
 const OptionsSchema& learning_schema();
+/// The values of the table [study].
+const OptionsSchema& study_schema();
 /// The members of CellLimits, which stand at the suite's top or with a method.
 const OptionsSchema& limits_schema();
 /// Those of `limits` that `given`, checked against the schema, has values for are replaced.
 CellLimits with_limits(CellLimits limits, const OptionMap& given, std::string_view where);
 
 /// Throws InputError for a suite without shapes, scenarios or methods (one that makes learning data
-/// may have neither scenarios nor methods), for labels that are used twice or hold anything but
-/// letters, digits and ". _ + -", for a name that is a path, and for methods and learning data of
-/// shapes that the suite does not have.
+/// may have neither scenarios nor methods, one with a study has none of the three), for labels that
+/// are used twice or hold anything but letters, digits and ". _ + -", for a name that is a path,
+/// and for methods and learning data of shapes that the suite does not have.
 void check_labels(const Suite& suite, std::string_view where);
 
 }  // namespace fracbench

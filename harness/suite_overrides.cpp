@@ -19,7 +19,8 @@ constexpr std::string_view kWhere = "--set";
 const std::vector<std::string>& suite_keys() {
   static const std::vector<std::string> keys = {
       "seed",      "repeats",           "threads_per_cell", "warm_up",  "device", "timeout_s",
-      "memory_mb", "prepare_timeout_s", "method",           "scenario", "shape",  "learning"};
+      "memory_mb", "prepare_timeout_s", "method",           "scenario", "shape",  "learning",
+      "study"};
   return keys;
 }
 
@@ -139,6 +140,14 @@ Suite with_override(Suite suite, std::string_view assignment, const Catalog& cat
     }
     set_learning_value(*suite.learning, key.substr(kLearning.size()), text, catalog);
     check_labels(suite, kWhere);
+    return suite;
+  }
+  constexpr std::string_view kStudy = "study.";
+  if (key.starts_with(kStudy)) {
+    if (!suite.study) {
+      throw InputError(fmt::format("{} {}: the suite has no table [study]", kWhere, assignment));
+    }
+    suite.study = replaced(*suite.study, study_schema(), key.substr(kStudy.size()), text, kWhere);
     return suite;
   }
   // A label may hold dots, the names of kinds and options never do.

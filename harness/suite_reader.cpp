@@ -249,6 +249,16 @@ std::vector<SuiteScale> read_scales(const Entry& top) {
   return scales;
 }
 
+std::optional<Options> read_study(const Entry& top) {
+  const toml::node* node = top.table.get("study");
+  if (!node) return std::nullopt;
+  const toml::table* table = node->as_table();
+  if (!table) {
+    throw InputError(fmt::format("{}: 'study' must be one table: write [study]", top.where(*node)));
+  }
+  return read_options({*table, top.source, "study"}, study_schema(), {});
+}
+
 std::optional<SuiteLearning> read_learning(const Entry& top, const Catalog& catalog) {
   const toml::node* node = top.table.get("learning");
   if (!node) return std::nullopt;
@@ -301,9 +311,9 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
         fmt::format("{}:{}: {}", source.string(), error.source().begin.line, error.description()));
   }
   const Entry top{table, source, ""};
-  const Options values =
-      read_options(top, suite_schema(),
-                   and_limits({"shape", "shapes", "scenario", "method", "learning", "scale"}));
+  const Options values = read_options(
+      top, suite_schema(),
+      and_limits({"shape", "shapes", "scenario", "method", "learning", "study", "scale"}));
   Suite suite;
   suite.folder = source.parent_path();
   suite.name = values.text("name").empty() ? source.stem().string() : values.text("name");
@@ -317,6 +327,7 @@ Suite parse_suite(std::string_view text, const std::filesystem::path& source,
   suite.scenarios = read_scenarios(top, catalog);
   suite.methods = read_methods(top, catalog);
   suite.learning = read_learning(top, catalog);
+  suite.study = read_study(top);
   suite.scales = read_scales(top);
   check_labels(suite, source.string());
   return suite;

@@ -6,7 +6,9 @@
 #include <map>
 #include <tuple>
 
+#include "core/error.h"
 #include "harness/record_store.h"
+#include "harness/study.h"
 #include "harness/summary_cache.h"
 
 namespace fracbench {
@@ -23,7 +25,7 @@ std::map<std::string, std::size_t> order_of(const nlohmann::ordered_json& suite,
 }  // namespace
 
 Results read_results(const std::filesystem::path& folder) {
-  Results results{.suite = read_stored_suite(folder), .cells = {}, .unreadable = {}};
+  Results results{.suite = read_stored_suite(folder), .study = {}, .cells = {}, .unreadable = {}};
   SummaryCache cache(folder);
   for (const std::filesystem::path& file : list_records(folder)) {
     try {
@@ -31,6 +33,11 @@ Results read_results(const std::filesystem::path& folder) {
     } catch (const DataError& error) {
       results.unreadable.push_back(fmt::format("{}: {}", file.string(), error.what()));
     }
+  }
+  try {
+    results.study = read_study(folder);
+  } catch (const InputError& error) {
+    results.unreadable.emplace_back(error.what());
   }
   auto shapes = order_of(results.suite.values, "shapes");
   auto methods = order_of(results.suite.values, "methods");

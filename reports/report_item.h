@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/cell_summary.h"
 #include "harness/reference_agreement.h"
 #include "metrics/cluster_bootstrap.h"
+#include "neural/representation_study.h"
 #include "reports/figure.h"
+#include "reports/report_picture.h"
 #include "reports/table.h"
 
 namespace fracbench {
@@ -16,6 +19,8 @@ namespace fracbench {
 struct ReportInput {
   std::string title = {};  ///< such as the suite's name
   std::vector<CellSummary> cells = {};
+  /// Of a suite that has a study instead of cells.
+  std::optional<neural::RepresentationStudy> study = {};
   std::vector<ReferenceAgreement> agreements = {};  ///< of the cells with the reference method
   /// Lines about where the results come from (program, machine, suite), shown under the title.
   std::vector<std::string> provenance = {};
@@ -34,6 +39,7 @@ struct ReportSection {
   std::vector<std::string> paragraphs;
   std::vector<Table> tables;  ///< empty: there is nothing to show, and the section is left out
   std::vector<Figure> figures = {};
+  std::vector<ReportPicture> pictures = {};
 
   bool empty() const { return tables.empty(); }
 };

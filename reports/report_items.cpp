@@ -8,6 +8,7 @@
 #include "reports/items/label_agreement.h"
 #include "reports/items/overview.h"
 #include "reports/items/paper_tables.h"
+#include "reports/items/representations.h"
 #include "reports/items/resolution_times.h"
 #include "reports/items/stage_times_table.h"
 #include "reports/items/training.h"
@@ -28,6 +29,7 @@ const std::vector<std::unique_ptr<ReportItem>>& report_items() {
     list.push_back(std::make_unique<FractureSurfaces>());
     list.push_back(std::make_unique<LabelAgreementTable>());
     list.push_back(std::make_unique<Training>());
+    list.push_back(std::make_unique<Representations>());
     list.push_back(std::make_unique<StageTimesTable>());
     list.push_back(std::make_unique<ResolutionTimes>());
     list.push_back(std::make_unique<PaperTables>());

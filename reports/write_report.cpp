@@ -4,10 +4,28 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "reports/picture/picture.h"
 #include "reports/raw_data.h"
 #include "reports/svg.h"
 
 namespace fracbench {
+
+namespace {
+
+/// What has to be known to read the tables.
+std::string introduction(const ReportInput& input) {
+  if (input.study) return "\nEach table is a CSV file beside this one.\n";
+  std::string text = fmt::format(
+      "\nIntervals in brackets hold {:g} % and come from {} resamples of whole collisions. Each "
+      "table is a CSV file beside this one; every value of every cell is in "
+      "[cells.csv](cells.csv), "
+      "the volume of every fragment in [volumes.csv](volumes.csv).\n",
+      100 * input.bootstrap.confidence, input.bootstrap.resamples);
+  if (input.cells.empty()) text += "\nThere are no cells to report on.\n";
+  return text;
+}
+
+}  // namespace
 
 std::vector<ReportFile> render_report(const ReportInput& input,
                                       const std::vector<NamedSection>& sections) {
@@ -15,13 +33,7 @@ std::vector<ReportFile> render_report(const ReportInput& input,
   std::string text = fmt::format("# {}\n", input.title.empty() ? "Report" : input.title);
   for (const std::string& line : input.provenance) text += fmt::format("\n- {}", line);
   if (!input.provenance.empty()) text += '\n';
-  text += fmt::format(
-      "\nIntervals in brackets hold {:g} % and come from {} resamples of whole collisions. Each "
-      "table is a CSV file beside this one; every value of every cell is in "
-      "[cells.csv](cells.csv), "
-      "the volume of every fragment in [volumes.csv](volumes.csv).\n",
-      100 * input.bootstrap.confidence, input.bootstrap.resamples);
-  if (input.cells.empty()) text += "\nThere are no cells to report on.\n";
+  text += introduction(input);
   const auto add_csv = [&](const Table& table) {
     files.push_back({table.name + ".csv", to_csv(table)});
   };
@@ -36,6 +48,11 @@ std::vector<ReportFile> render_report(const ReportInput& input,
       for (const std::string& note : figure.notes) text += fmt::format("\n{}\n", note);
       files.push_back({figure.name + ".svg", std::move(svg)});
     }
+    for (const ReportPicture& picture : section.pictures) {
+      text += fmt::format("\n![{0}]({1}.png)\n", picture.title, picture.name);
+      for (const std::string& note : picture.notes) text += fmt::format("\n{}\n", note);
+      files.push_back({picture.name + ".png", png_bytes(picture.picture)});
+    }
     for (const Table& table : section.tables) {
       add_csv(table);
       text += fmt::format("\n### {}\n", table.title);
@@ -44,8 +61,10 @@ std::vector<ReportFile> render_report(const ReportInput& input,
       text += fmt::format("\n[{0}.csv]({0}.csv)\n", table.name);
     }
   }
-  files.push_back({"cells.csv", cells_csv(input)});
-  files.push_back({"volumes.csv", volumes_csv(input)});
+  if (!input.study) {
+    files.push_back({"cells.csv", cells_csv(input)});
+    files.push_back({"volumes.csv", volumes_csv(input)});
+  }
   files.push_back({"report.md", std::move(text)});
   return files;
 }

@@ -14,13 +14,14 @@
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "neural/data_set.h"
 #include "neural/model.h"
+#include "neural/representation_study.h"
 #include "training/representation_study.h"
 #include "training/training.h"
 
@@ -207,42 +208,37 @@ int info(const std::string& file, bool losses) {
   return kGood;
 }
 
-/// Targets above what was decoded, the first eight patterns side by side, as a grey PGM picture.
-std::string picture(const training::StudyResult& result, int side) {
-  const int columns = std::min<int>(8, static_cast<int>(result.targets.size()) / (side * side));
-  std::string bytes = fmt::format("P5\n{} {}\n255\n", columns * side, 2 * side);
-  for (const std::vector<float>* images : {&result.targets, &result.decoded}) {
-    for (int y = 0; y < side; ++y) {
-      for (int column = 0; column < columns; ++column) {
-        for (int x = 0; x < side; ++x) {
-          const float value = (*images)[static_cast<std::size_t>((column * side + y) * side + x)];
-          const auto grey = static_cast<unsigned char>(std::clamp(255 * value, 0.0f, 255.0f));
-          bytes += static_cast<char>(grey);
-        }
-      }
-    }
+struct StudyArguments {
+  std::string out;
+  neural::StudySettings settings;
+  int threads = 1;
+  bool lines = false;
+};
+
+void print_study(const neural::RepresentationStudy& result) {
+  const auto mean = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  fmt::print("representation,loss,agreement,ceiling,regions,true_regions\n");
+  for (const neural::StudyOutcome& outcome : result.outcomes) {
+    fmt::print("{},{:.6g},{:.4f},{:.4f},{:.2f},{:.2f}\n", to_string(outcome.representation),
+               outcome.loss.back(), mean(outcome.agreement), mean(outcome.ceiling),
+               mean(outcome.regions), mean(result.true_regions));
   }
-  return bytes;
 }
 
-int study(const std::string& folder, training::StudyOptions options) {
-  std::filesystem::create_directories(folder);
-  Clock::time_point last;
-  options.progress = [&](std::string_view what, double fraction) {
-    if (Clock::now() - last < std::chrono::seconds(2)) return;
-    last = Clock::now();
-    fmt::print(stderr, "{}: {:.0f} %\n", what, 100 * fraction);
+int study(const StudyArguments& a, std::stop_token stop) {
+  const int epochs = static_cast<int>(neural::kRepresentations.size()) * a.settings.epochs;
+  Shown shown(a.lines, epochs);
+  const Clock::time_point start = Clock::now();
+  const auto progress = [&](int epoch, double loss) {
+    const std::chrono::duration<double> elapsed = Clock::now() - start;
+    shown(epoch, loss, elapsed.count() * (epochs - epoch) / epoch);
   };
-  std::string csv = "representation,loss,agreement,ceiling,regions,true_regions\n";
-  for (const training::StudyResult& r : training::study_representations(options)) {
-    csv += fmt::format("{},{:.6g},{:.4f},{:.4f},{:.2f},{:.2f}\n", to_string(r.representation),
-                       r.loss, r.agreement, r.ceiling, r.regions, r.true_regions);
-    write_file_atomically(
-        std::filesystem::path(folder) / fmt::format("{}.pgm", to_string(r.representation)),
-        picture(r, options.side));
-  }
-  write_file_atomically(std::filesystem::path(folder) / "study.csv", csv);
-  fmt::print("{}", csv);
+  const neural::RepresentationStudy result = training::study_representations(
+      a.settings, {.threads = a.threads, .stop = stop, .progress = progress});
+  neural::write_representation_study(a.out, result);
+  if (!a.lines) print_study(result);
   return kGood;
 }
 
@@ -276,24 +272,23 @@ int run_program(int argc, char** argv, std::stop_token stop) {
   about->add_flag("--losses", losses, "With the loss and the time of every epoch");
   about->callback([&] { chosen = [&] { return info(file, losses); }; });
 
-  std::string folder;
-  training::StudyOptions study_options;
-  auto* two = app.add_subcommand(
-      "study-2d",
-      "Learns 2D Voronoi diagrams as labels, lines and distances; writes a table and pictures");
-  two->add_option("--out", folder, "Folder")->required();
-  two->add_option("--epochs", study_options.epochs)
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  two->add_option("--patterns", study_options.patterns)
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10000));
-  two->add_option("--seed", study_options.seed)->capture_default_str();
-  two->add_option("--threads", study_options.threads)->capture_default_str();
-  two->callback([&] {
-    study_options.stop = stop;
-    chosen = [&] { return study(folder, study_options); };
-  });
+  StudyArguments two;
+  auto* study_command = app.add_subcommand(
+      "study-2d", "Learns 2D Voronoi diagrams as labels, lines and distances, and prints how well");
+  study_command->add_option("--out", two.out, "The study's file, for fracbench report")->required();
+  const auto number = [&](const char* name, auto& value, const char* text) {
+    study_command->add_option(name, value, text)->capture_default_str();
+  };
+  number("--side", two.settings.side, "Of the images, pixels");
+  number("--patterns", two.settings.patterns, "Diagrams");
+  number("--least-sites", two.settings.least_sites, "Of a diagram");
+  number("--most-sites", two.settings.most_sites, "Of a diagram");
+  number("--epochs", two.settings.epochs, "Of each representation");
+  number("--learning-rate", two.settings.learning_rate, "Of the first two thirds of them");
+  number("--seed", two.settings.seed, "");
+  number("--threads", two.threads, "Of the processor");
+  study_command->add_flag("--progress-lines", two.lines, "As for train");
+  study_command->callback([&] { chosen = [&] { return study(two, stop); }; });
 
   try {
     app.parse(argc, argv);

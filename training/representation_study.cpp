@@ -1,10 +1,13 @@
 #include "training/representation_study.h"
 
+#include <fmt/format.h>
 #include <torch/torch.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -20,6 +23,9 @@ namespace fracbench::training {
 
 namespace {
 
+using neural::Representation;
+using neural::StudyOutcome;
+using neural::StudySettings;
 using Labels = std::vector<std::int32_t>;
 
 constexpr int kCode = 32, kBase = 8, kChannels = 64;
@@ -33,7 +39,7 @@ constexpr float kLine = 0.5f;
 constexpr float kDepth = static_cast<float>(1.0 / kUnit);
 
 /// Regions 0 to n - 1, in random order.
-Labels voronoi(const StudyOptions& o, Random& random) {
+Labels voronoi(const StudySettings& o, Random& random) {
   const int count =
       o.least_sites +
       static_cast<int>(random.below(static_cast<std::uint64_t>(o.most_sites - o.least_sites + 1)));
@@ -173,7 +179,7 @@ Labels regions_of(const std::vector<float>& image, Representation representation
 /// A decoder of images from a trainable code for each pattern.
 class ImageNetwork {
  public:
-  ImageNetwork(const StudyOptions& o, Random& random) {
+  ImageNetwork(const StudySettings& o, Random& random) {
     std::vector<neural::WeightSpec> specs = {{"linear.weight", {kChannels * kBase * kBase, kCode}},
                                              {"linear.bias", {kChannels * kBase * kBase}}};
     int channels = kChannels;
@@ -226,75 +232,105 @@ torch::Tensor loss_of(const torch::Tensor& image, const torch::Tensor& target,
   return 1 - 2 * (image * target).sum() / (image.square().sum() + target.square().sum());
 }
 
-StudyResult study(const std::vector<Labels>& truth, Representation representation,
-                  const StudyOptions& o) {
-  Random random = Random(o.seed).fork(to_string(representation));
-  ImageNetwork network(o, random);
-  Adam adam(network.weights());
-  StudyResult result{.representation = representation, .targets = {}, .decoded = {}};
-  std::vector<torch::Tensor> targets;
-  for (const Labels& labels : truth) {
-    const std::vector<float> image = image_of(labels, representation, o.side);
-    targets.push_back(tensor_of(image, {static_cast<std::int64_t>(image.size())}));
-    result.targets.insert(result.targets.end(), image.begin(), image.end());
+/// The regions called 0, 1, 2, ... in the order in which they appear.
+Labels in_order(const Labels& labels) {
+  std::map<std::int32_t, std::int32_t> names;
+  Labels renamed;
+  for (const std::int32_t label : labels) {
+    renamed.push_back(
+        names.try_emplace(label, static_cast<std::int32_t>(names.size())).first->second);
   }
-  for (int epoch = 0; epoch < o.epochs; ++epoch) {
+  return renamed;
+}
+
+double count_of(const Labels& labels) {
+  return static_cast<double>(std::set(labels.begin(), labels.end()).size());
+}
+
+/// Learns the targets by heart; returns the mean loss of each epoch.
+std::vector<double> learn(ImageNetwork& network, const std::vector<torch::Tensor>& targets,
+                          Representation representation, const StudySettings& s,
+                          const StudyRun& run) {
+  Adam adam(network.weights());
+  std::vector<double> losses;
+  for (int epoch = 0; epoch < s.epochs; ++epoch) {
     double sum = 0;
     for (std::size_t k = 0; k < targets.size(); ++k) {
-      if (o.stop.stop_requested()) throw Cancelled();
+      if (run.stop.stop_requested()) throw Cancelled();
       const torch::Tensor loss =
           loss_of(network.decode(static_cast<std::int64_t>(k)), targets[k], representation);
       sum += loss.item<double>();
       loss.backward();
-      adam.step(epoch < 2 * o.epochs / 3 ? o.learning_rate : o.learning_rate / 6);
+      adam.step(epoch < 2 * s.epochs / 3 ? s.learning_rate : s.learning_rate / 6);
     }
-    result.loss = sum / static_cast<double>(targets.size());
-    if (o.progress) o.progress(to_string(representation), (epoch + 1.0) / o.epochs);
+    losses.push_back(sum / static_cast<double>(targets.size()));
+    if (run.progress) {
+      run.progress(static_cast<int>(representation) * s.epochs + epoch + 1, losses.back());
+    }
   }
+  return losses;
+}
+
+StudyOutcome study(const std::vector<Labels>& truth, Representation representation,
+                   const StudySettings& s, const StudyRun& run) {
+  Random random = Random(s.seed).fork(to_string(representation));
+  ImageNetwork network(s, random);
+  StudyOutcome outcome{.representation = representation};
+  std::vector<torch::Tensor> targets;
+  for (const Labels& labels : truth) {
+    const std::vector<float> image = image_of(labels, representation, s.side);
+    targets.push_back(tensor_of(image, {static_cast<std::int64_t>(image.size())}));
+    std::ranges::copy(image, std::back_inserter(outcome.targets));
+  }
+  outcome.loss = learn(network, targets, representation, s, run);
   const torch::NoGradGuard none;
-  const auto patterns = static_cast<double>(truth.size());
   for (std::size_t k = 0; k < truth.size(); ++k) {
     const int count = 1 + *std::ranges::max_element(truth[k]);
     const std::vector<float> image = values_of(network.decode(static_cast<std::int64_t>(k)));
-    const Labels back = regions_of(image, representation, o.side, count);
-    result.agreement += adjusted_rand_index(truth[k], back) / patterns;
-    result.ceiling +=
-        adjusted_rand_index(truth[k], regions_of(image_of(truth[k], representation, o.side),
-                                                 representation, o.side, count)) /
-        patterns;
-    result.regions += static_cast<double>(std::set(back.begin(), back.end()).size()) / patterns;
-    result.true_regions +=
-        static_cast<double>(std::set(truth[k].begin(), truth[k].end()).size()) / patterns;
-    result.decoded.insert(result.decoded.end(), image.begin(), image.end());
+    const Labels back = regions_of(image, representation, s.side, count);
+    const Labels exact =
+        regions_of(image_of(truth[k], representation, s.side), representation, s.side, count);
+    outcome.agreement.push_back(adjusted_rand_index(truth[k], back));
+    outcome.ceiling.push_back(adjusted_rand_index(truth[k], exact));
+    outcome.regions.push_back(count_of(back));
+    std::ranges::copy(image, std::back_inserter(outcome.decoded));
+    std::ranges::copy(in_order(back), std::back_inserter(outcome.back));
   }
-  return result;
+  return outcome;
+}
+
+void check(const StudySettings& s) {
+  const auto require = [](bool good, std::string_view what) {
+    if (!good) throw InputError(fmt::format("the study's {}", what));
+  };
+  require(s.side >= kBase && s.side <= 1024 && std::has_single_bit(static_cast<unsigned>(s.side)),
+          fmt::format("side must be a power of two in [{}, 1024], not {}", kBase, s.side));
+  require(s.patterns >= 1, fmt::format("patterns must be positive, not {}", s.patterns));
+  require(s.epochs >= 1, fmt::format("epochs must be positive, not {}", s.epochs));
+  require(s.least_sites >= 2 && s.least_sites <= s.most_sites,
+          fmt::format("sites must be at least two, the least ({}) not above the most ({})",
+                      s.least_sites, s.most_sites));
+  require(std::isfinite(s.learning_rate) && s.learning_rate > 0,
+          fmt::format("learning rate must be positive, not {}", s.learning_rate));
 }
 
 }  // namespace
 
-std::string_view to_string(Representation value) {
-  switch (value) {
-    case Representation::labels:
-      return "labels";
-    case Representation::lines:
-      return "lines";
-    case Representation::distance:
-      return "distance";
-  }
-  return "";
-}
-
-std::vector<StudyResult> study_representations(const StudyOptions& options) {
-  torch::set_num_threads(std::max(1, options.threads));
-  Random random(options.seed);
+neural::RepresentationStudy study_representations(const StudySettings& settings,
+                                                  const StudyRun& run) {
+  check(settings);
+  torch::set_num_threads(std::max(1, run.threads));
+  Random random(settings.seed);
   std::vector<Labels> truth;
-  for (int n = 0; n < options.patterns; ++n) truth.push_back(voronoi(options, random));
-  std::vector<StudyResult> results;
-  for (const Representation representation :
-       {Representation::labels, Representation::lines, Representation::distance}) {
-    results.push_back(study(truth, representation, options));
+  neural::RepresentationStudy result{.settings = settings, .true_regions = {}, .outcomes = {}};
+  for (int n = 0; n < settings.patterns; ++n) {
+    truth.push_back(voronoi(settings, random));
+    result.true_regions.push_back(count_of(truth.back()));
   }
-  return results;
+  for (const Representation representation : neural::kRepresentations) {
+    result.outcomes.push_back(study(truth, representation, settings, run));
+  }
+  return result;
 }
 
 }  // namespace fracbench::training

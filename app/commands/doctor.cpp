@@ -11,8 +11,8 @@
 #include "core/error.h"
 #include "harness/provenance.h"
 #include "harness/suite_files.h"
-#include "methods/deepfracture/trainer.h"
 #include "methods/registry.h"
+#include "neural/training_program.h"
 #include "reports/page/write_page.h"
 #include "scenarios/shapes.h"
 
@@ -59,7 +59,7 @@ Json device() {
 
 Json trainer() {
   try {
-    return finding("trainer", true, deepfracture::trainer_program().string());
+    return finding("trainer", true, neural::training_program().string());
   } catch (const InputError& error) {
     return finding("trainer", false, "not here: deepfracture cannot be trained", error.what());
   }

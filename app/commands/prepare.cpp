@@ -79,6 +79,12 @@ void print_prepared(const PrepareResult& result) {
 ExitCode prepare(SuiteArguments a, std::stop_token stop) {
   const Catalog catalog = built_in_catalog();
   const Suite suite = read_suite(a, catalog);
+  if (suite.study) {
+    throw InputError(
+        fmt::format("{}: the suite is a study, which needs no preparation: fracbench "
+                    "run {}",
+                    suite.name, a.suite));
+  }
   Plan plan = make_plan(suite, catalog, a.plan);
   plan.learning_folder = a.learning_folder();
   if (a.dry_run) return say_cost(suite, plan, catalog, a);

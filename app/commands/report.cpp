@@ -33,11 +33,15 @@ std::vector<std::string> provenance_of(const Results& results) {
   for (const CellSummary& cell : results.cells) ++cells_by_cpu[cell.cpu];
   std::vector<std::string> lines;
   if (!results.suite.summary.empty()) lines.push_back(results.suite.summary);
-  lines.push_back(fmt::format("{} of the suite's {} cells have a record.", results.cells.size(),
-                              results.suite.cells));
-  lines.push_back(fmt::format("Seed {}, from which every random number follows; {} repeat(s).",
-                              results.suite.values.value("seed", std::uint64_t{1}),
-                              results.suite.values.value("repeats", 1)));
+  const auto seed = results.suite.values.value("seed", std::uint64_t{1});
+  if (results.suite.cells > 0) {
+    lines.push_back(fmt::format("{} of the suite's {} cells have a record.", results.cells.size(),
+                                results.suite.cells));
+    lines.push_back(fmt::format("Seed {}, from which every random number follows; {} repeat(s).",
+                                seed, results.suite.values.value("repeats", 1)));
+  } else {
+    lines.push_back(fmt::format("Seed {}, from which every random number follows.", seed));
+  }
   for (const auto& [cpu, count] : cells_by_cpu) {
     lines.push_back(fmt::format("{} of them were measured on {}.", count, cpu));
   }
@@ -50,6 +54,7 @@ std::vector<std::string> provenance_of(const Results& results) {
 ReportInput input_from(const Results& results, const std::filesystem::path& folder) {
   return {.title = results.suite.name,
           .cells = results.cells,
+          .study = results.study,
           .agreements = agreement_with_reference(folder, results.cells),
           .provenance = provenance_of(results),
           .suite = results.suite.values.dump(),
@@ -73,7 +78,7 @@ ExitCode report(ReportArguments arguments, const std::stop_token& stop) {
   for (const std::string& message : results.unreadable) {
     fmt::print(stderr, "fracbench: left out: {}\n", message);
   }
-  if (results.cells.empty()) {
+  if (results.cells.empty() && !results.study) {
     fmt::print(stderr, "fracbench: {}: holds no records; run the suite first: fracbench run {}\n",
                arguments.results.string(), results.suite.name);
     return ExitCode::not_measured;

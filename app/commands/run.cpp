@@ -8,12 +8,14 @@
 #include <optional>
 
 #include "app/command.h"
+#include "app/command_progress.h"
 #include "app/suite_arguments.h"
 #include "core/error.h"
 #include "harness/cost_model.h"
 #include "harness/exit_code.h"
 #include "harness/plan.h"
 #include "harness/runner.h"
+#include "harness/study.h"
 #include "harness/suite_overrides.h"
 #include "harness/terminal_progress.h"
 
@@ -101,9 +103,47 @@ void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
   for (const SuiteScale& scale : suite.scales) print_scale(suite, scale, catalog, arguments);
 }
 
+/// A suite that has a study instead of cells.
+ExitCode run_study(const Suite& suite, const Catalog& catalog, const RunArguments& arguments,
+                   const std::stop_token& stop) {
+  const neural::StudySettings settings = study_settings(suite);
+  if (arguments.dry_run) {
+    if (arguments.as_json) {
+      print_json({{"study", describe_study(settings)}});
+      return ExitCode::good;
+    }
+    fmt::print("{}\n", describe_study(settings));
+    for (const SuiteScale& scale : suite.scales) {
+      fmt::print("--scale {} ({}): {}\n", scale.name, scale.summary,
+                 describe_study(study_settings(at_scale(suite, scale.name, catalog))));
+    }
+    return ExitCode::good;
+  }
+  bool made = false;
+  {
+    CommandProgress progress;
+    made = make_study(suite, {.folder = arguments.out,
+                              .command = command_of(arguments),
+                              .threads = suite.threads_per_cell,
+                              .stop = stop,
+                              .progress = &progress,
+                              .message = [](std::string_view text) {
+                                fmt::print(stderr, "fracbench: {}\n", text);
+                              }});
+  }
+  if (arguments.as_json) {
+    print_json({{"study", describe_study(settings)}, {"found", !made}});
+  } else {
+    fmt::print("{}: {} {}\n", describe_study(settings), made ? "in" : "found in",
+               arguments.out.string());
+  }
+  return ExitCode::good;
+}
+
 ExitCode run(RunArguments arguments, std::stop_token stop) {
   const Catalog catalog = built_in_catalog();
   const Suite suite = read_suite(arguments, catalog);
+  if (suite.study) return run_study(suite, catalog, arguments, stop);
   if (suite.methods.empty()) {
     throw InputError(fmt::format("{}: the suite only makes learning data: fracbench prepare {}",
                                  suite.name, arguments.suite));

@@ -16,10 +16,6 @@ struct TrainerCall {
   std::string options;                ///< JSON of training::TrainingOptions
 };
 
-/// The program fracbench-train: what FRACBENCH_TRAINER names, or beside the running program. Throws
-/// InputError where it is not there, with the way out.
-std::filesystem::path trainer_program();
-
 /// Trains in a process of its own, which ends when it is to stop (Cancelled) and reports through
 /// context.progress; uses context.threads and context.device. Throws InputError for what the
 /// program refuses, MethodFailure where it fails otherwise, with what it said.

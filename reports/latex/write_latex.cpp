@@ -65,6 +65,10 @@ std::string methods_paragraph(const ReportInput& input) {
   const Json suite = suite_values(input);
   std::string text = fmt::format("The suite \\texttt{{{}}} of fracbench was measured",
                                  escape_latex(suite.value("name", input.title)));
+  if (suite.contains("study")) {
+    return text + fmt::format(" with seed {}: a study with {}.\n", suite.value("seed", 1),
+                              escape_latex(options_text(suite.at("study"))));
+  }
   // Named, so that they live as long as their loops.
   const Json shape_values = suite.value("shapes", Json::object());
   const Json scenario_values = suite.value("scenarios", Json::object());
@@ -130,6 +134,11 @@ std::vector<ReportFile> render_latex(const ReportInput& input,
     for (const Figure& figure : section.figures) {
       std::string plot = to_pgfplots(figure);
       if (!plot.empty()) add("figure-" + figure.name, std::move(plot), figure.title);
+    }
+    for (const ReportPicture& picture : section.pictures) {
+      report += fmt::format(
+          "\\subsection*{{{}}}\n\n\\noindent\\includegraphics[width=\\linewidth]{{../{}.png}}\n\n",
+          escape_latex(picture.title), picture.name);
     }
     for (const Table& table : section.tables) {
       if (!table.in_text || table.rows.size() > kLongestTable) continue;

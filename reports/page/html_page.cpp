@@ -71,6 +71,16 @@ std::string figure_html(const Figure& figure) {
                             escape_markup(figure.name));
 }
 
+std::string picture_html(const ReportPicture& picture) {
+  std::string html = fmt::format(
+      "<figure class=\"wide\"><img src=\"{0}.png\" width=\"{1}\" height=\"{2}\" loading=\"lazy\" "
+      "alt=\"{3}\"><figcaption><strong>{3}.</strong>",
+      escape_markup(picture.name), picture.picture.width, picture.picture.height,
+      escape_markup(picture.title));
+  for (const std::string& note : picture.notes) html += fmt::format(" {}", escape_markup(note));
+  return html + "</figcaption></figure>\n";
+}
+
 std::string section_html(const NamedSection& named, const PageOptions& options) {
   std::string html = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", named.item.name,
                                  escape_markup(named.item.title));
@@ -82,6 +92,7 @@ std::string section_html(const NamedSection& named, const PageOptions& options) 
     for (const Figure& figure : named.section.figures) html += figure_html(figure);
     html += "</div>\n";
   }
+  for (const ReportPicture& picture : named.section.pictures) html += picture_html(picture);
   for (const Table& table : named.section.tables) html += table_html(table);
   if (!options.commands.empty()) {
     html +=
@@ -255,17 +266,19 @@ std::string html_page(const ReportInput& input, const std::vector<NamedSection>&
     html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", named.item.name,
                         escape_markup(named.item.title));
   }
-  html +=
-      "<li><a href=\"#cells\">Cells</a></li>\n<li><a href=\"#provenance\">Provenance</a></li>\n"
-      "</ul></nav>\n<main>\n";
-  html += viewer_html(input, options);
-  if (options.pictures) html += pictures_html(input);
-  html += fmt::format(
-      "<p class=\"note\">Intervals in brackets hold {:g} % and come from {} resamples of whole "
-      "collisions.</p>\n",
-      100 * input.bootstrap.confidence, input.bootstrap.resamples);
+  if (!input.study) html += "<li><a href=\"#cells\">Cells</a></li>\n";
+  html += "<li><a href=\"#provenance\">Provenance</a></li>\n</ul></nav>\n<main>\n";
+  if (!input.study) {
+    html += viewer_html(input, options);
+    if (options.pictures) html += pictures_html(input);
+    html += fmt::format(
+        "<p class=\"note\">Intervals in brackets hold {:g} % and come from {} resamples of whole "
+        "collisions.</p>\n",
+        100 * input.bootstrap.confidence, input.bootstrap.resamples);
+  }
   for (const NamedSection& named : sections) html += section_html(named, options);
-  html += cells_html(input, options) + provenance_html(input, options) + "</main>\n";
+  if (!input.study) html += cells_html(input, options);
+  html += provenance_html(input, options) + "</main>\n";
   if (options.script) html += "<script src=\"page.js\"></script>\n";
   return html + "</body>\n</html>\n";
 }

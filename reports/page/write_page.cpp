@@ -161,6 +161,7 @@ fs::path write_page(const ReportInput& all, const std::vector<NamedSection>& sec
   const std::string script = asset("page.js");
   const ReportInput input{.title = all.title,
                           .cells = shown_cells(all.cells, options.cells),
+                          .study = all.study,
                           .agreements = all.agreements,
                           .provenance = all.provenance,
                           .suite = all.suite,

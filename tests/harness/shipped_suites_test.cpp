@@ -40,10 +40,10 @@ TEST(ShippedSuitesTest, CanBeReadAndSayWhatTheyAreFor) {
 
 TEST(ShippedSuitesTest, EveryItemOfThePaperHasASuiteOfItsNameAtTwoScales) {
   const Catalog catalog = built_in_catalog();
-  for (const char* item :
-       {"table-1", "table-2", "figure-8", "figure-9", "figure-10", "figure-11", "supplement-1",
-        "supplement-2", "supplement-3", "supplement-4", "supplement-5", "supplement-6",
-        "supplement-8", "supplement-10", "supplement-11", "supplement-12", "supplement-13"}) {
+  for (const char* item : {"table-1", "table-2", "figure-8", "figure-9", "figure-10", "figure-11",
+                           "supplement-1", "supplement-2", "supplement-3", "supplement-4",
+                           "supplement-5", "supplement-6", "supplement-7", "supplement-8",
+                           "supplement-10", "supplement-11", "supplement-12", "supplement-13"}) {
     const Suite suite = read_suite(find_suite_file(item), catalog);
     EXPECT_NO_THROW(make_plan(suite, catalog)) << item;
     ASSERT_EQ(suite.scales.size(), 1u) << item;
