@@ -47,29 +47,6 @@ torch::Tensor field_loss(const torch::Tensor& field, const torch::Tensor& target
   return value;
 }
 
-torch::Tensor transposed_convolution(const torch::Tensor& input, const torch::Tensor& weight) {
-  const auto in = weight.size(0), out = weight.size(1);
-  const auto side = input.size(2);
-  // Tap 3 - p - 2 a takes input a of a window to the output of parity p: along each axis the kernel
-  // is [1 - a][1 - p].
-  const torch::Tensor windows =
-      weight
-          .reshape({in, out, 2, 2, 2, 2, 2, 2})  // in, out, 1 - az, 1 - pz, and so on
-          .flip({2, 4, 6})
-          .permute({1, 3, 5, 7, 0, 2, 4, 6})  // out, 1 - pz, 1 - py, 1 - px, in, az, ay, ax
-          .reshape({8 * out, in, 2, 2, 2});
-  const torch::Tensor values = torch::conv3d(input, windows, {}, 1, 1);
-  const auto n = side + 1;
-  // Window j gives output 2 j - p = 2 j - 1 + (1 - p): two of them for each j, in order, of which
-  // the first and the last lie outside.
-  return values.reshape({out, 2, 2, 2, n, n, n})
-      .permute({0, 4, 1, 5, 2, 6, 3})
-      .reshape({1, out, 2 * n, 2 * n, 2 * n})
-      .slice(2, 1, 2 * n - 1)
-      .slice(3, 1, 2 * n - 1)
-      .slice(4, 1, 2 * n - 1);
-}
-
 torch::Tensor per_channel(const torch::Tensor& values) { return values.reshape({1, -1, 1, 1, 1}); }
 
 torch::Tensor tensor_of(const std::vector<float>& values, torch::IntArrayRef shape) {

@@ -56,12 +56,6 @@ std::unique_ptr<Network> make_network(const neural::NetworkOptions& options, Ran
 TensorMap initial_weights(const std::vector<neural::WeightSpec>& specs, Random& random,
                           torch::Device device);
 
-/// Transposed convolution of kernel 4, stride 2, padding 1, as one convolution of kernel 2 with
-/// eight times the outputs, one for each parity, whose voxels are then put in their places (see
-/// neural/transposed_convolution.h). libtorch does its own transposed convolutions several times
-/// slower on a processor.
-torch::Tensor transposed_convolution(const torch::Tensor& input, const torch::Tensor& weight);
-
 /// Of values by channel: 1 x channels x 1 x 1 x 1.
 torch::Tensor per_channel(const torch::Tensor& values);
 

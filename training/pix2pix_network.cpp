@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "training/transposed_convolution.h"
 
 namespace fracbench::training {
 

@@ -2,6 +2,9 @@
 
 #include <torch/torch.h>
 
+#include "training/normalised_activation.h"
+#include "training/transposed_convolution.h"
+
 namespace fracbench::training {
 
 namespace {
@@ -24,8 +27,26 @@ VoxelNetwork::VoxelNetwork(const neural::NetworkOptions& options, Random& random
   }
 }
 
-torch::Tensor VoxelNetwork::normalise(const torch::Tensor& volume,
+torch::Tensor VoxelNetwork::activated(const torch::Tensor& convolved,
                                       const neural::DecoderLayer& layer, bool training) {
+  const torch::Tensor& scale = weights_[layer.name + ".scale"];
+  const torch::Tensor& shift = weights_[layer.name + ".shift"];
+  if (goes_by_sample_alone(training)) {
+    // Normalisation takes the mean off, and whatever bias is in it.
+    return normalised_activation(convolved, scale, shift, options_.epsilon, options_.slope);
+  }
+  const torch::Tensor volume = convolved + per_channel(weights_[layer.name + ".bias"]);
+  return torch::leaky_relu(normalised(volume, layer, training), options_.slope);
+}
+
+bool VoxelNetwork::goes_by_sample_alone(bool training) const {
+  if (options_.normalisation != neural::Normalisation::batch || sum_statistics_) return false;
+  return options_.statistics == neural::Statistics::sample ||
+         (training && options_.statistics == neural::Statistics::reestimated);
+}
+
+torch::Tensor VoxelNetwork::normalised(const torch::Tensor& volume,
+                                       const neural::DecoderLayer& layer, bool training) {
   const torch::Tensor& scale = weights_[layer.name + ".scale"];
   const torch::Tensor& shift = weights_[layer.name + ".shift"];
   if (options_.normalisation == neural::Normalisation::group) {
@@ -77,9 +98,8 @@ std::map<int, torch::Tensor> VoxelNetwork::decode(const torch::Tensor& code, boo
   volume = volume.reshape({1, -1, neural::kBaseSide, neural::kBaseSide, neural::kBaseSide});
   std::map<int, torch::Tensor> fields;
   for (const neural::DecoderLayer& layer : blocks_) {
-    volume = transposed_convolution(volume, weights_[layer.name + ".weight"]) +
-             per_channel(weights_[layer.name + ".bias"]);
-    volume = torch::leaky_relu(normalise(volume, layer, training), options_.slope);
+    volume = activated(transposed_convolution(volume, weights_[layer.name + ".weight"]), layer,
+                       training);
     const int r = 4 * layer.side;
     for (const neural::DecoderLayer& head : heads_) {
       if (2 * head.side != r) continue;

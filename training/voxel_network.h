@@ -23,8 +23,14 @@ class VoxelNetwork : public Network {
   void end_statistics(std::size_t samples) override;
 
  private:
-  torch::Tensor normalise(const torch::Tensor& volume, const neural::DecoderLayer& layer,
+  /// What a block makes of its convolution: bias, normalisation, activation.
+  torch::Tensor activated(const torch::Tensor& convolved, const neural::DecoderLayer& layer,
                           bool training);
+  torch::Tensor normalised(const torch::Tensor& volume, const neural::DecoderLayer& layer,
+                           bool training);
+  /// Whether a sample is normalised by nothing but its own mean and variance, which nobody else
+  /// wants to know.
+  bool goes_by_sample_alone(bool training) const;
 
   neural::NetworkOptions options_;
   std::vector<neural::DecoderLayer> blocks_, heads_;
