@@ -10,6 +10,7 @@ namespace fracbench {
 ReportItemInfo Overview::info() const { return {.name = "overview", .title = "Overview"}; }
 
 ReportSection Overview::render(const ReportInput& input) const {
+  if (input.study) return {};
   Table cells{.name = "overview",
               .title = "Cells by status",
               .columns = {{"shape"}, {"method"}, {"cells"}}};
