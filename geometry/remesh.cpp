@@ -50,6 +50,7 @@ class Remesher {
       return RemeshResult{.mesh = std::move(*result), .path = RemeshPath::isotropic};
     }
     const auto collapsed = [&](const TriangleMesh& fine, CollapseOrder order) {
+      stop_if_asked();
       auto result = collapse_edges(fine, triangles_, order);
       return result && good(*result, volume_tolerance) ? std::move(result) : std::nullopt;
     };
@@ -58,6 +59,7 @@ class Remesher {
           order == CollapseOrder::shortest_first ? RemeshPath::collapsed : RemeshPath::simplified;
       for (const double finer : kFiner) {
         if (finer * triangles_ > kMostFine || (options_.quick && finer > kFiner[0])) break;
+        stop_if_asked();
         const auto fine =
             isotropic_remesh(start, length_for(start, finer * triangles_), options_.feature_angle);
         if (!fine) continue;
@@ -81,6 +83,10 @@ class Remesher {
   const std::string& reason() const { return reason_; }
 
  private:
+  void stop_if_asked() const {
+    if (options_.stop.stop_requested()) throw Cancelled();
+  }
+
   std::size_t shells(const TriangleMesh& mesh) const {
     return check_mesh(mesh, {.self_intersections = false, .threads = options_.threads}).components;
   }
@@ -90,6 +96,7 @@ class Remesher {
     double length = kFirstLength * length_for(start, triangles_);
     std::optional<TriangleMesh> best;
     for (int n = 0; n < kLengthTries; ++n) {
+      stop_if_asked();
       auto next = isotropic_remesh(start, length, options_.feature_angle);
       if (!next || next->faces.empty()) break;
       const double error = count_error(*next, triangles_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,7 @@ struct RemeshOptions {
   /// Give up sooner: the dearest ways are not tried, and no count that would do is looked for.
   bool quick = false;
   int threads = 2;
+  std::stop_token stop = {};
 };
 
 /// Which way gave the mesh.
@@ -47,9 +49,8 @@ struct RemeshResult {
 ///
 /// `mesh` must be a solid (see require_solid). `name` is the body, for messages. Throws InputError
 /// where fewer than 64 triangles are wanted, and where no way gives a solid, naming (unless
-/// `quick`) a count that
-/// does. The same bytes for
-/// any number of threads.
+/// `quick`) a count that does; Cancelled when asked to stop. The same bytes for any number of
+/// threads.
 RemeshResult remesh(const TriangleMesh& mesh, std::string_view name,
                     const RemeshOptions& options = {});
 

@@ -152,7 +152,8 @@ const BemBody::Ready& BemBody::ready(Context& context) const {
                          {.triangles = element_count(state_),
                           .allow_isosurface = state_.is_piece,
                           .quick = state_.is_piece,
-                          .threads = context.threads})
+                          .threads = context.threads,
+                          .stop = context.stop})
                       .mesh;
     }
     context.stop_if_asked();

@@ -81,7 +81,8 @@ TriangleMesh offset_cage(const TriangleMesh& shape, const CageOptions& options, 
       cage = remesh(surface, "the surface around the shape",
                     {.triangles = static_cast<int>(options.target_faces),
                      .feature_angle = 180,
-                     .threads = context.threads})
+                     .threads = context.threads,
+                     .stop = context.stop})
                  .mesh;
     } catch (const InputError& error) {
       reason = error.what();

@@ -107,6 +107,12 @@ TEST(Remesh, GivesTheSameMeshAgainAndForAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
 }
 
+TEST(Remesh, StopsWhenAsked) {
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(remesh(cube(), "cube", {.triangles = 400, .stop = source.get_token()}), Cancelled);
+}
+
 TEST(Remesh, SaysWhichCountWouldDoWhereABodyIsTooThin) {
   // A spherical shell of a twentieth of its radius.
   const TriangleMesh shell = joined({sphere(40, 80, 1), flipped(sphere(40, 80, 0.95))});
