@@ -114,8 +114,9 @@ std::optional<Claim> RecordStore::claim(std::string_view key) const {
   return Claim::try_take(folder_ / "claims" / key);
 }
 
-Claim RecordStore::wait_for_claim(std::string_view name) const {
+Claim RecordStore::wait_for_claim(std::string_view name, const std::stop_token& stop) const {
   while (true) {
+    if (stop.stop_requested()) throw Cancelled();
     if (auto taken = claim(name)) return std::move(*taken);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,8 +52,8 @@ class RecordStore {
   /// The right to make the record of a key; none while another holds it.
   std::optional<Claim> claim(std::string_view key) const;
 
-  /// The same, waited for: for what is made in no time.
-  Claim wait_for_claim(std::string_view name) const;
+  /// The same, waited for. Throws Cancelled when asked to stop.
+  Claim wait_for_claim(std::string_view name, const std::stop_token& stop = {}) const;
 
   /// Whether there is a file for this key; says nothing of what is in it.
   bool contains(std::string_view key) const;

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/error.h"
 #include "harness/record_store.h"
@@ -18,7 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "study.data";
 constexpr const char* kClaim = "study";
-constexpr auto kClaimInterval = std::chrono::milliseconds(100);
 
 /// Whether the study is there; what is there and not it is told of.
 bool is_there(const neural::StudySettings& settings, const StudyCall& call) {
@@ -34,14 +31,6 @@ bool is_there(const neural::StudySettings& settings, const StudyCall& call) {
     if (call.message) call.message(fmt::format("{}; made again", error.what()));
   }
   return false;
-}
-
-Claim wait_for_claim(const RecordStore& store, const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    if (auto taken = store.claim(kClaim)) return std::move(*taken);
-    std::this_thread::sleep_for(kClaimInterval);
-  }
-  throw Cancelled();
 }
 
 }  // namespace
@@ -71,7 +60,7 @@ bool make_study(const Suite& suite, const StudyCall& call) {
                     .values = to_json(suite),
                     .cells = 0,
                     .command = call.command});
-  const Claim claim = wait_for_claim(store, call.stop);
+  const Claim claim = store.wait_for_claim(kClaim, call.stop);
   if (is_there(settings, call)) return false;
   neural::run_training_program(
       {"study-2d", "--out", (call.folder / kFile).string(), "--side",
