@@ -16,6 +16,7 @@
 #include "harness/build_info.h"
 #include "harness/catalog.h"
 #include "harness/workers/serve_cells.h"
+#include "neural/blas_kernels.h"
 
 namespace {
 
@@ -91,6 +92,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
 
 int main(int argc, char** argv) {
   using namespace fracbench;
+  neural::use_fitting_blas_kernels(argv);
   // What 'run' starts this program with; nobody else needs it.
   if (argc == 2 && std::string_view(argv[1]) == "worker") return serve_cells(built_in_catalog());
   const Interrupt interrupt;

@@ -19,6 +19,7 @@
 #include <thread>
 
 #include "harness/build_info.h"
+#include "neural/blas_kernels.h"
 
 namespace fracbench {
 
@@ -50,6 +51,7 @@ std::map<std::string, std::string> collect_provenance() {
           {"compiler", build.compiler},
           {"build_type", build.build_type},
           {"cpu", cpu_name()},
+          {"blas", neural::blas_kernels()},
           {"cpu_threads", std::to_string(std::thread::hardware_concurrency())},
           {"system", system_name()},
           {"library_boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000,

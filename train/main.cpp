@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "neural/blas_kernels.h"
 #include "neural/data_set.h"
 #include "neural/model.h"
 #include "neural/representation_study.h"
@@ -301,6 +302,7 @@ int run_program(int argc, char** argv, std::stop_token stop) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  neural::use_fitting_blas_kernels(argv);
   const Interrupt interrupt;
   const auto fail = [](const char* what, int code) {
     fmt::print(stderr, "fracbench-train: {}\n", what);
