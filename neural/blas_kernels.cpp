@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace fracbench::neural {
 
@@ -34,7 +36,10 @@ void use_fitting_blas_kernels(char** argv) {
   const char* fitting = fitting_kernels();
   if (fitting == nullptr || std::getenv(kChoice) != nullptr || blas_kernels() != kOldest) return;
   ::setenv(kChoice, fitting, /*overwrite=*/1);
-  ::execv("/proc/self/exe", argv);
+  // By its name: "exe" is what the system would call the program else.
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  ::execv(program.c_str(), argv);
   // Slower is better than not at all.
 }
 

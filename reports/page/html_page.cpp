@@ -260,8 +260,8 @@ std::string html_page(const ReportInput& input, const std::vector<NamedSection>&
   if (!input.provenance.empty()) {
     html += fmt::format("<p>{}</p>", escape_markup(input.provenance.front()));
   }
-  html +=
-      "</header>\n<nav aria-label=\"Sections\"><ul>\n<li><a href=\"#viewer\">Fragments</a></li>\n";
+  html += "</header>\n<nav aria-label=\"Sections\"><ul>\n";
+  if (!input.study) html += "<li><a href=\"#viewer\">Fragments</a></li>\n";
   for (const NamedSection& named : sections) {
     html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", named.item.name,
                         escape_markup(named.item.title));
