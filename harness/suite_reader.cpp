@@ -249,24 +249,24 @@ std::vector<SuiteScale> read_scales(const Entry& top) {
   return scales;
 }
 
+/// The table [name], which stands once; null where it is missing.
+const toml::table* one_table(const Entry& top, std::string_view name) {
+  const toml::node* node = top.table.get(name);
+  if (!node) return nullptr;
+  if (const toml::table* table = node->as_table()) return table;
+  throw InputError(
+      fmt::format("{}: '{}' must be one table: write [{}]", top.where(*node), name, name));
+}
+
 std::optional<Options> read_study(const Entry& top) {
-  const toml::node* node = top.table.get("study");
-  if (!node) return std::nullopt;
-  const toml::table* table = node->as_table();
-  if (!table) {
-    throw InputError(fmt::format("{}: 'study' must be one table: write [study]", top.where(*node)));
-  }
+  const toml::table* table = one_table(top, "study");
+  if (!table) return std::nullopt;
   return read_options({*table, top.source, "study"}, study_schema(), {});
 }
 
 std::optional<SuiteLearning> read_learning(const Entry& top, const Catalog& catalog) {
-  const toml::node* node = top.table.get("learning");
-  if (!node) return std::nullopt;
-  const toml::table* table = node->as_table();
-  if (!table) {
-    throw InputError(
-        fmt::format("{}: 'learning' must be one table: write [learning]", top.where(*node)));
-  }
+  const toml::table* table = one_table(top, "learning");
+  if (!table) return std::nullopt;
   const Entry entry{*table, top.source, "learning"};
   const std::string name = require_text(entry, "method", "bem");
   const std::string family = require_text(entry, "family", "single");

@@ -11,6 +11,7 @@
 #include "core/array_file.h"
 #include "core/digest.h"
 #include "core/error.h"
+#include "neural/made_of_file.h"
 
 namespace fracbench::neural {
 
@@ -107,14 +108,7 @@ void write_data_set(const std::filesystem::path& file, const DataSet& data) {
 }
 
 DataSet read_data_set(const std::filesystem::path& file) {
-  ArrayFile arrays = read_array_file(file, kKind);
-  try {
-    return data_set_of(arrays);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("cannot read '{}': {}", file.string(), error.what()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("cannot read '{}': {}", file.string(), error.what()));
-  }
+  return made_of_file(file, kKind, data_set_of);
 }
 
 DataSet joined(std::vector<DataSet> sets) {

@@ -9,6 +9,7 @@
 
 #include "core/array_file.h"
 #include "core/error.h"
+#include "neural/made_of_file.h"
 
 namespace fracbench::neural {
 
@@ -129,16 +130,7 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   write_array_file(path, file, kKind);
 }
 
-Model read_model(const std::filesystem::path& path) {
-  ArrayFile file = read_array_file(path, kKind);
-  try {
-    return model_of(file);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("cannot read '{}': {}", path.string(), error.what()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("cannot read '{}': {}", path.string(), error.what()));
-  }
-}
+Model read_model(const std::filesystem::path& path) { return made_of_file(path, kKind, model_of); }
 
 std::vector<float> random_segment_code(int size, Random& random) {
   const double deviation = std::sqrt(2.0 / (size + 1));

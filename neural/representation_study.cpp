@@ -8,6 +8,7 @@
 
 #include "core/array_file.h"
 #include "core/error.h"
+#include "neural/made_of_file.h"
 
 namespace fracbench::neural {
 
@@ -118,14 +119,7 @@ void write_representation_study(const std::filesystem::path& file,
 }
 
 RepresentationStudy read_representation_study(const std::filesystem::path& file) {
-  ArrayFile arrays = read_array_file(file, kKind);
-  try {
-    return study_from(arrays);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("cannot read '{}': {}", file.string(), error.what()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("cannot read '{}': {}", file.string(), error.what()));
-  }
+  return made_of_file(file, kKind, study_from);
 }
 
 }  // namespace fracbench::neural
