@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/random.h"
 
@@ -45,5 +46,15 @@ using ClusterStatistic = std::function<std::optional<double>(std::span<const std
 std::optional<BootstrapInterval> cluster_bootstrap(std::size_t clusters,
                                                    const ClusterStatistic& statistic,
                                                    const BootstrapOptions& options, Random& random);
+
+/// Several statistics of the chosen clusters, always the same ones in the same order.
+using ClusterStatistics =
+    std::function<std::vector<std::optional<double>>(std::span<const std::size_t> chosen)>;
+
+/// The same for statistics that have work in common: all of them of the same resamples. An interval
+/// for each of `statistics`, in their order, none where the above gives none.
+std::vector<std::optional<BootstrapInterval>> joint_cluster_bootstrap(
+    std::size_t clusters, const ClusterStatistics& statistics, const BootstrapOptions& options,
+    Random& random);
 
 }  // namespace fracbench

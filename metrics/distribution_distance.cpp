@@ -29,14 +29,27 @@ void walk_differences(std::span<const double> a, std::span<const double> b, cons
   }
 }
 
-// Integral of |p - F| over [low, high] for a constant p.
-double area_beside(const Mott& law, double p, double low, double high) {
+// Mott's law at a volume: the share above it and the integral of that share from there on.
+struct Above {
+  double volume;
+  double share;
+  double integral;
+};
+
+Above above(const Mott& law, double volume) {
+  return {volume, law.survival(volume), law.survival_integral(volume)};
+}
+
+// Integral of |p - F| between two volumes for a constant p.
+double area_beside(const Mott& law, double p, const Above& low, const Above& high) {
   // F - p = (1 - p) - S, whose integral needs that of S only.
-  const auto signed_area = [&](double from, double to) {
-    return (1 - p) * (to - from) - (law.survival_integral(from) - law.survival_integral(to));
+  const auto area = [&](const Above& from, const Above& to) {
+    return std::abs((1 - p) * (to.volume - from.volume) - (from.integral - to.integral));
   };
-  const double crossing = std::clamp(law.quantile(p), low, high);
-  return std::abs(signed_area(low, crossing)) + std::abs(signed_area(crossing, high));
+  const bool crosses = low.share > 1 - p && 1 - p > high.share;
+  if (!crosses) return area(low, high);
+  const Above crossing = above(law, std::clamp(law.quantile(p), low.volume, high.volume));
+  return area(low, crossing) + area(crossing, high);
 }
 
 }  // namespace
@@ -80,12 +93,13 @@ double wasserstein(std::span<const double> sample, const Mott& law) {
   const std::vector<double> x = sorted(sample);
   const auto n = static_cast<double>(x.size());
   Sum area;
-  double low = law.cut;
+  Above low = above(law, law.cut);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    area += area_beside(law, static_cast<double>(i) / n, low, x[i]);
-    low = x[i];
+    const Above high = above(law, x[i]);
+    area += area_beside(law, static_cast<double>(i) / n, low, high);
+    low = high;
   }
-  area += law.survival_integral(low);
+  area += low.integral;
   return area.value();
 }
 

@@ -41,17 +41,17 @@ double Mott::survival_integral(double from) const {
 std::optional<Mott> Mott::with_mean(double mean_above, double cut) {
   if (!(mean_above > cut) || cut < 0 || !std::isfinite(mean_above)) return std::nullopt;
   if (cut == 0) return Mott{.mean_volume = mean_above};
-  // mean / cut = 1 + 3 / x + 6 / x^2 + 6 / x^3 at x = cbrt(6 cut / Vbar), which falls with x: a
-  // bisection in log x cannot fail, and 200 halvings end at neighbouring numbers.
-  const double ratio = mean_above / cut;
-  double low = -100;
-  double high = 100;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = (low + high) / 2;
-    const double y = std::exp(-middle);
-    (1 + y * (3 + y * (6 + y * 6)) > ratio ? low : high) = middle;
+  // mean / cut = 1 + 3 y + 6 y^2 + 6 y^3 at y = cbrt(Vbar / (6 cut)). The right side rises and is
+  // convex for y > 0: Newton's steps from above fall towards the root and cannot pass it, until
+  // rounding ends their fall.
+  const double excess = mean_above / cut - 1;
+  double y = std::min(excess / 3, std::cbrt(excess / 6));
+  for (double next = y; next > 0; y = next) {
+    const double value = y * (3 + y * (6 + y * 6)) - excess;
+    next = y - value / (3 + y * (12 + y * 18));
+    if (!(next < y)) break;
   }
-  return Mott{.mean_volume = 6 * cut * std::exp(-3 * low), .cut = cut};
+  return Mott{.mean_volume = 6 * cut * y * y * y, .cut = cut};
 }
 
 std::optional<Mott> Mott::fit(std::span<const double> volumes, double cut) {

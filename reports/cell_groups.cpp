@@ -113,16 +113,32 @@ std::vector<double> CollisionValues::of(std::span<const std::size_t> chosen) con
   return pooled;
 }
 
-TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
-                   const ReportInput& input, std::string_view name) {
+std::vector<TableCell> joint_estimates(std::size_t collisions, const ClusterStatistics& statistics,
+                                       const ReportInput& input, std::string_view name) {
   std::vector<std::size_t> all(collisions);
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const auto value = statistic(all);
-  if (!value || !std::isfinite(*value)) return {};
+  const std::vector<std::optional<double>> values = statistics(all);
   Random random(derive_seed(input.seed, {"report", name}));
-  const auto interval = cluster_bootstrap(collisions, statistic, input.bootstrap, random);
-  if (!interval) return *value;
-  return Estimate{.value = *value, .low = interval->low, .high = interval->high};
+  const auto intervals = joint_cluster_bootstrap(collisions, statistics, input.bootstrap, random);
+  std::vector<TableCell> cells(values.size());
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    if (!values[s] || !std::isfinite(*values[s])) continue;
+    if (intervals[s]) {
+      cells[s] =
+          Estimate{.value = *values[s], .low = intervals[s]->low, .high = intervals[s]->high};
+    } else {
+      cells[s] = *values[s];
+    }
+  }
+  return cells;
+}
+
+TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
+                   const ReportInput& input, std::string_view name) {
+  const ClusterStatistics alone = [&](std::span<const std::size_t> chosen) {
+    return std::vector<std::optional<double>>{statistic(chosen)};
+  };
+  return joint_estimates(collisions, alone, input, name).front();
 }
 
 TableCell estimate(std::span<const CellRef> cells,

@@ -74,6 +74,10 @@ TableCell estimate(std::span<const CellRef> cells,
 TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
                    const ReportInput& input, std::string_view name);
 
+/// The same for statistics that have work in common, in their order.
+std::vector<TableCell> joint_estimates(std::size_t collisions, const ClusterStatistics& statistics,
+                                       const ReportInput& input, std::string_view name);
+
 /// The same for the mean of a metric.
 TableCell estimated_mean(std::span<const CellRef> cells, std::string_view metric,
                          const ReportInput& input);

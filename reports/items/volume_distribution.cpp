@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/parallel.h"
@@ -21,41 +23,35 @@ namespace {
 
 constexpr const char* kVolumeUnit = "V_body / 10";
 
-/// Something of a sample, ascending, and the law that is fitted to it.
-using Distance = std::function<double(const std::vector<double>& volumes, const Mott& law)>;
-
 std::vector<TableCell> mott_row(const ShapeVolumes& shape, const CellGroup& group,
                                 const ReportInput& input) {
   const std::vector<std::vector<CellRef>> collisions = by_collision(group.cells);
   const CollisionVolumes volumes(collisions, group.label, shape.cut);
-  // Of the sample and the law that is fitted to it, fitted anew in each resample.
-  const auto estimated = [&](std::string_view name, const Distance& distance) {
-    const auto statistic = [&](std::span<const std::size_t> chosen) -> std::optional<double> {
-      const std::vector<double> sample = volumes.of(chosen);
-      const auto law = Mott::fit(sample, shape.cut);
-      if (!law) return std::nullopt;
-      return distance(sample, *law);
-    };
-    return estimate(collisions.size(), statistic, input,
-                    fmt::format("{} {} {}", shape.shape, group.label, name));
+  // The last four columns, of the law that is fitted to the sample: anew in each resample.
+  const auto statistics = [&](std::span<const std::size_t> chosen) {
+    std::vector<std::optional<double>> values(4);
+    const std::vector<double> sample = volumes.of(chosen);
+    const auto law = Mott::fit(sample, shape.cut);
+    if (!law) return values;
+    const MottAsPrinted printed{.mean_volume = law->mean_volume, .cut = law->cut};
+    values[0] = law->mean_volume;
+    values[1] = kolmogorov_smirnov(sample, [&](double v) { return law->distribution(v); });
+    values[2] = wasserstein(sample, *law);
+    values[3] = kolmogorov_smirnov(sample, [&](double v) { return printed.distribution(v); });
+    return values;
   };
-  return {
+  std::vector<TableCell> row = {
       shape.shape,
       group.label,
       static_cast<std::int64_t>(collisions.size()),
       static_cast<std::int64_t>(volumes_above(group.cells, 0).size()),
       shape.cut,
       static_cast<std::int64_t>(volumes_above(group.cells, shape.cut).size()),
-      estimated("mean", [](const auto&, const Mott& law) { return law.mean_volume; }),
-      estimated("ks",
-                [](const auto& sample, const Mott& law) {
-                  return kolmogorov_smirnov(sample, [&](double v) { return law.distribution(v); });
-                }),
-      estimated("w", [](const auto& sample, const Mott& law) { return wasserstein(sample, law); }),
-      estimated("printed", [](const auto& sample, const Mott& law) {
-        const MottAsPrinted printed{.mean_volume = law.mean_volume, .cut = law.cut};
-        return kolmogorov_smirnov(sample, [&](double v) { return printed.distribution(v); });
-      })};
+  };
+  std::ranges::move(joint_estimates(collisions.size(), statistics, input,
+                                    fmt::format("{} {} mott", shape.shape, group.label)),
+                    std::back_inserter(row));
+  return row;
 }
 
 Table mott_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& input) {
@@ -87,38 +83,40 @@ Table mott_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& inp
   return table;
 }
 
-using Samples = std::function<double(std::span<const double>, std::span<const double>)>;
+// KS and W of two samples.
+std::vector<std::optional<double>> distances(std::span<const double> x, std::span<const double> y) {
+  if (x.empty() || y.empty()) return {std::nullopt, std::nullopt};
+  return {kolmogorov_smirnov(x, y), wasserstein(x, y)};
+}
 
-// The distance of two methods, with its interval from drawing collisions of both.
-TableCell distance_between(const CellGroup& a, const CellGroup& b, double cut,
-                           const ReportInput& input, std::string_view name,
-                           const Samples& distance) {
+// The distances of two methods, with their intervals from drawing collisions of both.
+std::vector<TableCell> distances_between(const CellGroup& a, const CellGroup& b, double cut,
+                                         const ReportInput& input) {
   std::vector<CellRef> both = a.cells;
   both.insert(both.end(), b.cells.begin(), b.cells.end());
   const std::vector<std::vector<CellRef>> collisions = by_collision(both);
   const CollisionVolumes of_a(collisions, a.label, cut);
   const CollisionVolumes of_b(collisions, b.label, cut);
-  const auto statistic = [&](std::span<const std::size_t> chosen) -> std::optional<double> {
-    const std::vector<double> x = of_a.of(chosen);
-    const std::vector<double> y = of_b.of(chosen);
-    if (x.empty() || y.empty()) return std::nullopt;
-    return distance(x, y);
+  const auto statistics = [&](std::span<const std::size_t> chosen) {
+    return distances(of_a.of(chosen), of_b.of(chosen));
   };
-  return estimate(collisions.size(), statistic, input,
-                  fmt::format("{} {} {} {}", a.shape, a.label, b.label, name));
+  return joint_estimates(collisions.size(), statistics, input,
+                         fmt::format("{} {} {} distances", a.shape, a.label, b.label));
 }
 
-// The distance between every other collision of a method and the rest: what chance alone makes.
-TableCell distance_of_halves(const CellGroup& group, double cut, const Samples& distance) {
+// The distances between every other collision of a method and the rest: what chance alone makes.
+std::vector<TableCell> distances_of_halves(const CellGroup& group, double cut) {
   std::array<std::vector<CellRef>, 2> halves;
   const std::vector<std::vector<CellRef>> collisions = by_collision(group.cells);
   for (std::size_t i = 0; i < collisions.size(); ++i) {
     halves[i % 2].insert(halves[i % 2].end(), collisions[i].begin(), collisions[i].end());
   }
-  const std::vector<double> x = volumes_above(halves[0], cut);
-  const std::vector<double> y = volumes_above(halves[1], cut);
-  if (x.empty() || y.empty()) return {};
-  return distance(x, y);
+  std::vector<TableCell> cells;
+  for (const std::optional<double>& distance :
+       distances(volumes_above(halves[0], cut), volumes_above(halves[1], cut))) {
+    cells.push_back(number_or_nothing(distance));
+  }
+  return cells;
 }
 
 Table method_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& input) {
@@ -131,24 +129,31 @@ Table method_table(const std::vector<ShapeVolumes>& shapes, const ReportInput& i
                 "half the data, so rather more of it)."},
       .columns = {
           {"shape"}, {"method"}, {"other"}, {"cut", kVolumeUnit}, {"KS"}, {"W", kVolumeUnit}}};
-  const Samples ks = [](auto x, auto y) { return kolmogorov_smirnov(x, y); };
-  const Samples w = [](auto x, auto y) { return wasserstein(x, y); };
+  struct Place {
+    const ShapeVolumes& shape;
+    const CellGroup& method;
+    const CellGroup* other;  // null: its other half
+  };
+  std::vector<Place> places;
   for (const ShapeVolumes& shape : shapes) {
     for (std::size_t i = 0; i < shape.methods.size(); ++i) {
-      const CellGroup& a = shape.methods[i];
-      if (by_collision(a.cells).size() > 1) {
-        table.rows.push_back({shape.shape, a.label, std::string("(its other half)"), shape.cut,
-                              distance_of_halves(a, shape.cut, ks),
-                              distance_of_halves(a, shape.cut, w)});
-      }
+      const CellGroup& method = shape.methods[i];
+      if (by_collision(method.cells).size() > 1) places.push_back({shape, method, nullptr});
       for (std::size_t j = i + 1; j < shape.methods.size(); ++j) {
-        const CellGroup& b = shape.methods[j];
-        table.rows.push_back({shape.shape, a.label, b.label, shape.cut,
-                              distance_between(a, b, shape.cut, input, "ks", ks),
-                              distance_between(a, b, shape.cut, input, "w", w)});
+        places.push_back({shape, method, &shape.methods[j]});
       }
     }
   }
+  table.rows.resize(places.size());
+  parallel_for(places.size(), hardware_threads(), [&](std::size_t i) {
+    const auto& [shape, method, other] = places[i];
+    std::vector<TableCell>& row = table.rows[i];
+    const std::string other_name = other ? std::string(other->label) : "(its other half)";
+    row = {shape.shape, method.label, other_name, shape.cut};
+    std::ranges::move(other ? distances_between(method, *other, shape.cut, input)
+                            : distances_of_halves(method, shape.cut),
+                      std::back_inserter(row));
+  });
   return table;
 }
 

@@ -148,5 +148,39 @@ TEST(ClusterBootstrap, does_not_answer_where_nothing_can_be_said) {
   EXPECT_EQ(interval->high, 2);
 }
 
+TEST(ClusterBootstrap, joint_intervals_are_those_of_each_statistic_on_the_same_resamples) {
+  Random draw(8);
+  Clusters data = clustered_data(draw, 25, 4);
+  for (std::size_t c = 0; c < data.size(); c += 3) data[c].clear();
+  const ClusterStatistic mean = mean_of(data);
+  // Exists only where the first cluster with values was drawn.
+  const ClusterStatistic rare = [](std::span<const std::size_t> chosen) -> std::optional<double> {
+    std::size_t times = 0;
+    for (const std::size_t c : chosen) times += c == 1;
+    return times > 0 ? std::optional(static_cast<double>(times)) : std::nullopt;
+  };
+  const ClusterStatistic never = [](auto) -> std::optional<double> { return std::nullopt; };
+  const ClusterStatistics all = [&](std::span<const std::size_t> chosen) {
+    return std::vector{mean(chosen), rare(chosen), never(chosen)};
+  };
+  for (const std::size_t most : {std::size_t{500}, std::size_t{10}}) {
+    const BootstrapOptions options{.resamples = 300, .most_clusters = most};
+    Random random(9);
+    const auto joint = joint_cluster_bootstrap(data.size(), all, options, random);
+    ASSERT_EQ(joint.size(), 3u);
+    EXPECT_FALSE(joint[2].has_value());
+    for (const int k : {0, 1}) {
+      Random same(9);
+      const auto alone = cluster_bootstrap(data.size(), k == 0 ? mean : rare, options, same);
+      ASSERT_EQ(joint[k].has_value(), alone.has_value());
+      if (!alone) continue;
+      EXPECT_EQ(joint[k]->estimate, alone->estimate);
+      EXPECT_EQ(joint[k]->low, alone->low);
+      EXPECT_EQ(joint[k]->high, alone->high);
+      EXPECT_EQ(joint[k]->resamples, alone->resamples);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fracbench

@@ -99,6 +99,18 @@ TEST(Mott, fit_finds_the_law_that_made_the_mean) {
   EXPECT_FALSE(Mott::fit(std::vector<double>{0.1, 0.2}, 0.5).has_value());
 }
 
+TEST(Mott, fit_holds_from_just_above_the_cut_to_far_beyond_it) {
+  for (const double cut : {1e-12, 0.3, 1e6}) {
+    for (const double excess : {1e-9, 1e-3, 1.0, 1e3, 1e12}) {
+      const double mean = cut * (1 + excess);
+      const auto law = Mott::with_mean(mean, cut);
+      ASSERT_TRUE(law.has_value()) << cut << " " << excess;
+      EXPECT_NEAR((law->mean() - cut) / (mean - cut), 1, 1e-6) << cut << " " << excess;
+    }
+  }
+  EXPECT_FALSE(Mott::with_mean(0.3, 0.3).has_value());
+}
+
 TEST(Mott, fit_to_a_truncated_sample_recovers_the_mean_of_the_whole) {
   Random random(7);
   const Mott law{.mean_volume = 10.0 / 15};
