@@ -51,8 +51,13 @@ std::vector<double> series_of(const CellSummary& cell, const std::string& metric
   return value ? std::vector<double>{*value} : std::vector<double>{};
 }
 
-/// Numbers of groups of collisions that are alike, see metrics/rerun_noise.h.
-std::vector<std::size_t> groups_of(const std::vector<CellPair>& pairs) {
+/// Collisions that are alike, see metrics/rerun_noise.h.
+struct Alike {
+  std::vector<std::size_t> groups;  ///< parallel to the pairs
+  bool repeats = false;             ///< they are repeats of one impact, not impacts on one shape
+};
+
+Alike alike_of(const std::vector<CellPair>& pairs) {
   std::map<std::string, std::vector<std::size_t>> impacts;
   std::map<std::string, std::vector<std::size_t>> shapes;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -61,15 +66,15 @@ std::vector<std::size_t> groups_of(const std::vector<CellPair>& pairs) {
     impacts[shape + "/" + cell.scenario].push_back(i);
     shapes[shape].push_back(i);
   }
-  const bool repeated =
+  Alike alike{.groups = std::vector<std::size_t>(pairs.size())};
+  alike.repeats =
       std::ranges::all_of(impacts, [](const auto& impact) { return impact.second.size() > 1; });
-  std::vector<std::size_t> groups(pairs.size());
   std::size_t number = 0;
-  for (const auto& [name, members] : repeated ? impacts : shapes) {
-    for (const std::size_t i : members) groups[i] = number;
+  for (const auto& [name, members] : alike.repeats ? impacts : shapes) {
+    for (const std::size_t i : members) alike.groups[i] = number;
     ++number;
   }
-  return groups;
+  return alike;
 }
 
 bool comparable_machines(const std::vector<CellPair>& pairs) {
@@ -182,7 +187,7 @@ void Measuring::mean(const std::vector<CellPair>& pairs) {
   result_.change = gate().relative ? *result_.candidate / mean : summarize(differences).mean;
   if (!judged) return;
 
-  const double error = mean_difference_error(before, groups_of(used));
+  const double error = mean_difference_error(before, alike_of(used).groups);
   const std::size_t n = used.size();
   const double chance = shift_by_chance(error, n, gate().significance, tail());
   if (!gate().relative) {
@@ -227,7 +232,7 @@ void Measuring::distance(const std::vector<CellPair>& pairs) {
   if (!judged) return;
 
   const std::vector<double> chance =
-      distances_by_chance(before, groups_of(pairs), kind, kNoiseDraws, random_);
+      distances_by_chance(before, alike_of(pairs).groups, kind, kNoiseDraws, random_);
   const double strict = quantile(chance, 1 - single_significance_).value_or(0);
   result_.noise = quantile(chance, 1 - gate().significance).value_or(0);
   if (!above_noise()) return;
@@ -241,17 +246,27 @@ void Measuring::distance(const std::vector<CellPair>& pairs) {
 
 void Measuring::ratio(const std::vector<CellPair>& pairs, const std::vector<CellPair>& others) {
   const double shortest = gate().metric == "peak_memory" ? 0 : kShortestTime;
-  std::vector<double> logs;
-  const auto log_ratio = [&](const CellPair& pair) -> std::optional<double> {
-    const auto b = value_of(*pair.baseline, gate().metric);
-    const auto c = value_of(*pair.candidate, gate().metric);
-    if (!b || !c || *b <= shortest || *c <= shortest) return std::nullopt;
-    return std::log(*c / *b);
+  const auto log_of = [&](const CellSummary& cell) -> std::optional<double> {
+    const auto value = value_of(cell, gate().metric);
+    if (!value || *value <= shortest) return std::nullopt;
+    return std::log(*value);
   };
+  std::vector<double> before;  // logarithms in the baseline, of ratios where there are others
+  std::vector<double> logs;    // of candidate / baseline
+  std::vector<CellPair> used;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto own = log_ratio(pairs[i]);
-    const auto other = others.empty() ? std::optional(0.0) : log_ratio(others[i]);
-    if (own && other) logs.push_back(*own - *other);
+    auto b = log_of(*pairs[i].baseline);
+    auto c = log_of(*pairs[i].candidate);
+    if (b && c && !others.empty()) {
+      const auto b_other = log_of(*others[i].baseline);
+      const auto c_other = log_of(*others[i].candidate);
+      b = b_other ? std::optional(*b - *b_other) : std::nullopt;
+      c = c_other ? std::optional(*c - *c_other) : std::nullopt;
+    }
+    if (!b || !c) continue;
+    before.push_back(*b);
+    logs.push_back(*c - *b);
+    used.push_back(pairs[i]);
   }
   const bool identical = std::ranges::all_of(logs, [](double log) { return log == 0; });
   const bool judged = enough(logs.size(), identical);
@@ -275,7 +290,13 @@ void Measuring::ratio(const std::vector<CellPair>& pairs, const std::vector<Cell
                "not judged: not all were measured on the same processor with the same threads");
   }
   if (!judged) return;
-  const double error = summary.deviation() / std::sqrt(static_cast<double>(logs.size()));
+  // Impacts differ in what they cost, so only repeats of one tell how a time varies by itself.
+  // Where the baseline has them, a candidate that happens to scatter little does not make it less
+  // noisy.
+  double error = summary.deviation() / std::sqrt(static_cast<double>(logs.size()));
+  if (const Alike alike = alike_of(used); alike.repeats) {
+    error = std::max(error, mean_difference_error(before, alike.groups));
+  }
   const std::size_t n = logs.size();
   result_.noise = std::exp(shift_by_chance(error, n, gate().significance, tail()));
   if (!above_noise()) return;

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "tests/harness/made_up_results.h"
 
@@ -125,6 +127,26 @@ TEST(Compare, RepeatsLetTheNoiseBeThatOfTheMethodAlone) {
     return *compare_results(results, results, count_gate(2)).gates[0].noise - 1;
   };
   EXPECT_LT(noise(50, 2), 0.6 * noise(100, 1));
+}
+
+TEST(Compare, TimesTakeTheirNoiseFromTheRepeatsOfTheBaseline) {
+  const Gate gate{.metric = "total_seconds",
+                  .test = GateTest::paired_ratio,
+                  .direction = Tail::upper,
+                  .limit = 1.001,
+                  .relative = true};
+  // Compared with itself a run has ratios without any scatter.
+  const auto itself = [&](int repeats) {
+    const Results results = MadeUpResults{.collisions = 40, .repeats = repeats}.make();
+    return compare_results(results, results, {gate}).gates.at(0);
+  };
+  EXPECT_EQ(itself(1).noise.value(), 1.0) << "impacts differ in what they cost";
+  const GateResult repeated = itself(2);
+  EXPECT_EQ(repeated.outcome, GateOutcome::refused);
+  const Results baseline = MadeUpResults{.collisions = 40, .repeats = 2}.make();
+  const Results rerun = MadeUpResults{.collisions = 40, .repeats = 2, .rerun = 5}.make();
+  const double scatter = compare_results(baseline, rerun, {gate}).gates.at(0).noise.value();
+  EXPECT_NEAR(std::log(*repeated.noise) / std::log(scatter), 1, 0.4) << "of the same size";
 }
 
 TEST(Compare, AStatusThatBecomesWorseAlwaysIsARegression) {
