@@ -10,6 +10,7 @@
 #include "metrics/cluster_bootstrap.h"
 #include "neural/representation_study.h"
 #include "reports/figure.h"
+#include "reports/gallery.h"
 #include "reports/report_picture.h"
 #include "reports/table.h"
 
@@ -22,6 +23,7 @@ struct ReportInput {
   /// Of a suite that has a study instead of cells.
   std::optional<neural::RepresentationStudy> study = {};
   std::vector<ReferenceAgreement> agreements = {};  ///< of the cells with the reference method
+  std::vector<GalleryRow> gallery = {};             ///< pictures of some of the cells
   /// Lines about where the results come from (program, machine, suite), shown under the title.
   std::vector<std::string> provenance = {};
   std::string suite = {};  ///< all its values, as JSON; empty: not known

@@ -2,6 +2,7 @@
 
 #include "reports/items/claims.h"
 #include "reports/items/errata_table.h"
+#include "reports/items/fracture_gallery.h"
 #include "reports/items/fracture_surfaces.h"
 #include "reports/items/fragment_counts.h"
 #include "reports/items/impulse_response.h"
@@ -22,6 +23,7 @@ const std::vector<std::unique_ptr<ReportItem>>& report_items() {
     std::vector<std::unique_ptr<ReportItem>> list;
     list.push_back(std::make_unique<Overview>());
     list.push_back(std::make_unique<ClaimsTable>());
+    list.push_back(std::make_unique<FractureGallery>());
     list.push_back(std::make_unique<ValidityTable>());
     list.push_back(std::make_unique<FragmentCounts>());
     list.push_back(std::make_unique<VolumeDistribution>());

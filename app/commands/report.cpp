@@ -56,6 +56,7 @@ ReportInput input_from(const Results& results, const std::filesystem::path& fold
           .cells = results.cells,
           .study = results.study,
           .agreements = agreement_with_reference(folder, results.cells),
+          .gallery = gallery_of(folder, results.cells),
           .provenance = provenance_of(results),
           .suite = results.suite.values.dump(),
           .bootstrap = {},

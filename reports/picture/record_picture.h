@@ -22,6 +22,17 @@ struct RecordPictureOptions {
 Picture picture_of(const Record& record, const TriangleMesh& target,
                    const RecordPictureOptions& options = {});
 
+/// The target before it broke, with an arrow along each impulse of the first impact that ends where
+/// it acts; from the side of picture_of.
+Picture collision_picture_of(const Record& record, const TriangleMesh& target,
+                             const RecordPictureOptions& options = {});
+
+/// The place in `fragments` of the one with the largest fracture surface; none where nothing broke.
+std::optional<std::size_t> most_cracked(const Fragments& fragments);
+
+/// A fragment alone, seen against its fracture surface, which is in a colour of its own.
+Picture fracture_picture_of(const Fragment& fragment, const RecordPictureOptions& options = {});
+
 /// How many frames of motion a record has.
 int frames_of(const Record& record);
 

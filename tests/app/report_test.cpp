@@ -56,6 +56,16 @@ TEST_F(ReportCommand, WritesAPageThatHasAFileForEachCell) {
   EXPECT_EQ(folder_.read("report/index.html"), page) << "the same records, the same page";
 }
 
+TEST_F(ReportCommand, ShowsFracturesSideBySideInEveryKindOfReport) {
+  EXPECT_EQ(run("report results --out report").exit_code, 0);
+  EXPECT_EQ(folder_.read("report/fractures_cube.png").substr(1, 3), "PNG");
+  for (const char* text : {"report/index.html", "report/report.md", "report/latex/report.tex"}) {
+    EXPECT_THAT(folder_.read(text), HasSubstr("fractures_cube.png")) << text;
+  }
+  const std::string table = folder_.read("report/fracture_gallery.csv");
+  EXPECT_EQ(std::ranges::count(table, '\n'), 3) << "its head and two methods: " << table;
+}
+
 TEST_F(ReportCommand, LinksWholeMeshesWhereTheyAreWanted) {
   EXPECT_EQ(run("report results --out report --meshes").exit_code, 0);
   const std::string page = folder_.read("report/index.html");
