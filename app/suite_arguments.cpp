@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "core/text.h"
@@ -88,6 +89,17 @@ void CellWorkers::measure_for(RunOptions& options) {
 CostEstimate learning_cost(const Suite& suite, const Catalog& catalog, const SuiteArguments& a) {
   return estimate_cost(make_learning_plan(suite, catalog, learning_shapes(suite, a.plan)),
                        a.learning_folder(), a.jobs);
+}
+
+std::vector<TrainingCost> measured_training_costs(const Plan& plan, const std::stop_token& stop) {
+  const bool learns =
+      std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
+  if (!learns) return {};
+  const bool shown = is_terminal(STDERR_FILENO);
+  if (shown) fmt::print(stderr, "measuring some steps of training ...\r");
+  std::vector<TrainingCost> costs = training_costs(plan, stop);
+  if (shown) fmt::print(stderr, "{:36}\r", "");
+  return costs;
 }
 
 LearningResult make_learning_data(const Suite& suite, const Catalog& catalog,

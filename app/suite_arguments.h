@@ -12,6 +12,7 @@
 #include "harness/learning_data.h"
 #include "harness/plan.h"
 #include "harness/suite.h"
+#include "harness/training_cost.h"
 #include "harness/workers/worker_pool.h"
 
 namespace fracbench {
@@ -54,6 +55,9 @@ class CellWorkers {
 /// What making the learning data of the suite costs, for the part that was asked for.
 CostEstimate learning_cost(const Suite& suite, const Catalog& catalog,
                            const SuiteArguments& arguments);
+
+/// What the plan's methods take to learn, measured while standard error says so.
+std::vector<TrainingCost> measured_training_costs(const Plan& plan, const std::stop_token& stop);
 
 /// Makes the learning data of the suite for the shapes that were asked for, with the progress on
 /// standard error, and says there what came of it.

@@ -9,6 +9,7 @@
 #include "core/peak_memory.h"
 #include "core/random.h"
 #include "neural/model.h"
+#include "neural/operations.h"
 #include "neural/voxel_decoder.h"
 
 namespace {
@@ -54,8 +55,9 @@ void Predict(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(decoder.decode({code, {}}, r, threads).values.data());
   }
-  state.counters["Gflop/s"] = benchmark::Counter(decoder.operations(r) / kGiga,
-                                                 benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["Gflop/s"] =
+      benchmark::Counter(neural::decoding_operations(model.network, r) / kGiga,
+                         benchmark::Counter::kIsIterationInvariantRate);
   state.counters["peak_MB"] = static_cast<double>(peak_memory()) / 1e6;
 }
 BENCHMARK(Predict)

@@ -1,6 +1,7 @@
 #include "harness/breakable_cache.h"
 
 #include <chrono>
+#include <set>
 
 #include "core/digest.h"
 #include "harness/learning_set.h"
@@ -68,6 +69,16 @@ Prepared BreakableCache::get(const Cell& cell, Context& context) {
   entry->made = true;
   prepared.fresh = true;
   return prepared;
+}
+
+std::vector<Cell> bodies_of(const Plan& plan) {
+  std::vector<Cell> cells;
+  std::set<std::string> seen;
+  for (const Cell& cell : plan.cells) {
+    const Scenario& scenario = plan.shapes[cell.shape].scenarios[cell.scenario].scenario;
+    if (seen.insert(BreakableCache::key(cell, scenario.material)).second) cells.push_back(cell);
+  }
+  return cells;
 }
 
 }  // namespace fracbench

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "core/context.h"
 #include "core/target.h"
@@ -45,5 +46,8 @@ class BreakableCache {
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Entry>> entries_;
 };
+
+/// The bodies that a plan needs, each as the first cell that breaks it.
+std::vector<Cell> bodies_of(const Plan& plan);
 
 }  // namespace fracbench

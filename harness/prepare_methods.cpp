@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/error.h"
 #include "harness/breakable_cache.h"
@@ -17,17 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kProgressInterval = std::chrono::milliseconds(200);
-
-/// The first cell of each body.
-std::vector<Cell> first_cells(const Plan& plan) {
-  std::vector<Cell> cells;
-  std::set<std::string> seen;
-  for (const Cell& cell : plan.cells) {
-    const Scenario& scenario = plan.shapes[cell.shape].scenarios[cell.scenario].scenario;
-    if (seen.insert(BreakableCache::key(cell, scenario.material)).second) cells.push_back(cell);
-  }
-  return cells;
-}
 
 /// Tells which body is being prepared, and what its method says of itself.
 class BodyProgress final : public Progress {
@@ -71,7 +59,7 @@ class BodyProgress final : public Progress {
 }  // namespace
 
 PrepareResult prepare_methods(const Plan& plan, const PrepareOptions& options) {
-  const std::vector<Cell> cells = first_cells(plan);
+  const std::vector<Cell> cells = bodies_of(plan);
   PrepareResult result{.rows = {}, .bodies = cells.size()};
   BodyProgress progress(options, cells.size());
   for (const Cell& cell : cells) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -62,6 +65,13 @@ struct LearningData {
   std::vector<FurtherLearning> further = {};
 };
 
+/// Where a method would learn.
+struct TrainingMachine {
+  int threads = 1;
+  std::string device = std::string(kProcessor);
+  std::stop_token stop = {};
+};
+
 /// A fracture method. Stateless; adding one is a folder below methods/ and a line in registry.cpp.
 class Method {
  public:
@@ -83,6 +93,14 @@ class Method {
   virtual bool learns(const Options& options) const {
     (void)options;
     return info().learns;
+  }
+
+  /// Seconds that prepare() takes to learn so many fractures, measured on this machine within some
+  /// seconds; none where it does not learn, or not for long.
+  virtual std::optional<double> learning_seconds(const Options& options, std::size_t examples,
+                                                 const TrainingMachine& machine) const {
+    (void)options, (void)examples, (void)machine;
+    return std::nullopt;
   }
 
   /// Files that the options name and whose content determines the result: their digests are part of

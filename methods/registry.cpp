@@ -56,6 +56,10 @@ class Registered : public Method {
     return method_->load(folder, target, options);
   }
   bool learns(const Options& options) const override { return method_->learns(options); }
+  std::optional<double> learning_seconds(const Options& options, std::size_t examples,
+                                         const TrainingMachine& machine) const override {
+    return method_->learning_seconds(options, examples, machine);
+  }
   std::vector<std::filesystem::path> files(const Options& options) const override {
     return method_->files(options);
   }

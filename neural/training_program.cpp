@@ -16,14 +16,17 @@ namespace {
 
 constexpr int kBadInput = 2;
 
-/// "epoch 12 200 0.00123 35.5".
+/// "epoch 12 200 0.00123 35.5" or "seconds 35.5".
 void tell(std::string_view line, const TrainingWatch& watch) {
   std::istringstream words{std::string(line)};
   std::string word;
+  words >> word;
   double done = 0, all = 0, loss = 0;
-  if (watch.on_epoch && words >> word >> done >> all >> loss && word == "epoch" && all > 0) {
+  if (word == "epoch" && watch.on_epoch && words >> done >> all >> loss && all > 0) {
     watch.on_epoch(done / all, loss);
   }
+  double seconds = 0;
+  if (word == "seconds" && watch.on_seconds && words >> seconds) watch.on_seconds(seconds);
 }
 
 }  // namespace

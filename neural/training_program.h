@@ -17,6 +17,8 @@ struct TrainingWatch {
   std::stop_token stop = {};
   /// Told of each epoch: how much of the training is done, in [0, 1], and the epoch's loss.
   std::function<void(double fraction, double loss)> on_epoch = {};
+  /// Told of the seconds that the command 'time' says.
+  std::function<void(double seconds)> on_seconds = {};
 };
 
 /// Calls it with these arguments and those that make it tell of each epoch; it ends with this call,

@@ -94,18 +94,4 @@ VoxelGrid<float> VoxelDecoder::decode(const FieldSource& source, int resolution,
   return field;
 }
 
-double VoxelDecoder::operations(int resolution) const {
-  double sum = 2.0 * static_cast<double>(linear_weight_.size());
-  const auto add = [&](const DecoderLayer& layer) {
-    sum += 2.0 * layer.in * layer.out * 64 * std::pow(layer.side, 3);
-  };
-  for (const DecoderLayer& layer : decoder_blocks(network_)) {
-    if (4 * layer.side <= resolution) add(layer);
-  }
-  for (const DecoderLayer& layer : decoder_heads(network_)) {
-    if (2 * layer.side == resolution) add(layer);
-  }
-  return sum;
-}
-
 }  // namespace fracbench::neural

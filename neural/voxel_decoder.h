@@ -19,9 +19,6 @@ class VoxelDecoder : public FieldDecoder {
 
   VoxelGrid<float> decode(const FieldSource& source, int resolution, int threads) const override;
 
-  /// Floating-point operations that `decode` needs, for comparison with the machine's rate.
-  double operations(int resolution) const;
-
  private:
   struct Block {
     TransposedConvolution convolution;

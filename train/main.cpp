@@ -25,6 +25,7 @@
 #include "neural/representation_study.h"
 #include "training/representation_study.h"
 #include "training/training.h"
+#include "training/training_time.h"
 
 namespace {
 
@@ -43,6 +44,7 @@ struct Arguments {
   std::string out, checkpoints, options_file, device = "cpu";
   std::vector<std::string> set;
   int threads = 1;
+  int patterns = 200;
   bool lines = false;
 };
 
@@ -117,6 +119,15 @@ void set_option(Json& options, const std::string& assignment) {
   (*at)[name] = parsed.is_discarded() ? Json(value) : std::move(parsed);
 }
 
+/// The defaults, changed by the file and the single options that were given.
+training::TrainingOptions options_from(const training::TrainingOptions& defaults,
+                                       const Arguments& a) {
+  Json json = training::to_json(defaults);
+  if (!a.options_file.empty()) json = read_json(a.options_file);
+  for (const std::string& assignment : a.set) set_option(json, assignment);
+  return training::training_options_from_json(json);
+}
+
 int train(const Arguments& a, std::stop_token stop) {
   std::vector<neural::DataSet> sets;
   for (const std::string& file : a.data) sets.push_back(neural::read_data_set(file));
@@ -129,10 +140,7 @@ int train(const Arguments& a, std::stop_token stop) {
       defaults.network.resolutions.push_back(r);
     }
   }
-  Json json = training::to_json(defaults);
-  if (!a.options_file.empty()) json = read_json(a.options_file);
-  for (const std::string& assignment : a.set) set_option(json, assignment);
-  const training::TrainingOptions options = training::training_options_from_json(json);
+  const training::TrainingOptions options = options_from(defaults, a);
 
   if (!a.lines) {
     fmt::print(stderr, "{}: {} patterns, {:.1f} million parameters\n", names_of(data.shapes),
@@ -148,6 +156,20 @@ int train(const Arguments& a, std::stop_token stop) {
       .progress = std::ref(shown)};
   neural::write_model(a.out, training::train(data, options, run));
   if (!a.lines) fmt::print(stderr, "\n{}\n", a.out);
+  return kGood;
+}
+
+int time_training(const Arguments& a, std::stop_token stop) {
+  const training::TrainingOptions options = options_from({}, a);
+  const double step =
+      training::seconds_per_step(options, {.threads = a.threads, .device = a.device, .stop = stop});
+  const double steps = static_cast<double>(options.epochs) * a.patterns;
+  if (a.lines) {
+    fmt::print("seconds {:.9g}\n", step * steps);
+    return kGood;
+  }
+  fmt::print("a step takes {:.3g} s; {} epochs of {} patterns {} (hours:minutes:seconds)\n", step,
+             options.epochs, a.patterns, duration(step * steps));
   return kGood;
 }
 
@@ -257,14 +279,26 @@ int run_program(int argc, char** argv, std::stop_token stop) {
       ->required();
   command->add_option("--out", a.out, "The model's file")->required();
   command->add_option("--checkpoints", a.checkpoints, "Folder (default: OUT.checkpoints)");
-  command->add_option("--options", a.options_file, "All options of the training, as JSON");
-  command->add_option("--set", a.set,
-                      "NAME=VALUE: one of them, e.g. epochs=200, network.width=0.25");
-  command->add_option("--device", a.device, "cpu or cuda")->capture_default_str();
-  command->add_option("--threads", a.threads, "Of the processor")->capture_default_str();
+  const auto add_training_options = [&](CLI::App& to) {
+    to.add_option("--options", a.options_file, "All options of the training, as JSON");
+    to.add_option("--set", a.set, "NAME=VALUE: one of them, e.g. epochs=200, network.width=0.25");
+    to.add_option("--device", a.device, "cpu or cuda")->capture_default_str();
+    to.add_option("--threads", a.threads, "Of the processor")->capture_default_str();
+  };
+  add_training_options(*command);
   command->add_flag("--progress-lines", a.lines,
                     "A line 'epoch DONE ALL LOSS SECONDS_LEFT' for each epoch on standard output");
   command->callback([&] { chosen = [&] { return train(a, stop); }; });
+
+  auto* time_command = app.add_subcommand(
+      "time", "Says how long a training would take, from a few steps on made-up patterns");
+  add_training_options(*time_command);
+  time_command->add_option("--patterns", a.patterns, "To learn from")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  time_command->add_flag("--progress-lines", a.lines,
+                         "Nothing but a line 'seconds SECONDS' on standard output");
+  time_command->callback([&] { chosen = [&] { return time_training(a, stop); }; });
 
   std::string file;
   bool losses = false;

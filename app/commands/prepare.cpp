@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 /// What there is to do, before it is done.
 ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
-                  const SuiteArguments& a) {
+                  const SuiteArguments& a, const std::stop_token& stop) {
   Json json = Json::object();
   std::string text;
   if (!learning_shapes(suite, a.plan).empty()) {
@@ -39,6 +39,10 @@ ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
     }
     json["bodies"] = bodies;
     text += fmt::format("bodies to prepare: {}\n", bodies);
+    for (const TrainingCost& cost : measured_training_costs(plan, stop)) {
+      json["training"].push_back(cost.as_json());
+      text += fmt::format("training, where none is kept: {}\n", cost.describe());
+    }
   }
   if (a.as_json) {
     print_json(json);
@@ -87,7 +91,7 @@ ExitCode prepare(SuiteArguments a, std::stop_token stop) {
   }
   Plan plan = make_plan(suite, catalog, a.plan);
   plan.learning_folder = a.learning_folder();
-  if (a.dry_run) return say_cost(suite, plan, catalog, a);
+  if (a.dry_run) return say_cost(suite, plan, catalog, a, stop);
 
   Json json = Json::object();
   ExitCode code = ExitCode::good;

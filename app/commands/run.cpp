@@ -68,10 +68,19 @@ bool make_what_is_learned(const Plan& plan, const Catalog& catalog, const RunArg
   return exit_code_of(result) == ExitCode::good;
 }
 
+/// What the methods of a plan take to learn, a line each.
+std::string training_lines(const std::vector<TrainingCost>& costs) {
+  std::string text;
+  for (const TrainingCost& cost : costs) {
+    text += fmt::format("training, where none is kept: {}\n", cost.describe());
+  }
+  return text;
+}
+
 /// What a suite costs at another of its scales, which may need what is not here.
 void print_scale(const Suite& suite, const SuiteScale& scale, const Catalog& catalog,
-                 const RunArguments& arguments) {
-  std::string cost;
+                 const RunArguments& arguments, const std::stop_token& stop) {
+  std::string cost, training;
   try {
     const Suite other = at_scale(suite, scale.name, catalog);
     PlanOptions options = arguments.plan;
@@ -79,28 +88,33 @@ void print_scale(const Suite& suite, const SuiteScale& scale, const Catalog& cat
     const Plan plan = make_plan(other, catalog, options);
     cost = estimate_cost(plan, std::filesystem::path("results") / other.name, arguments.jobs)
                .describe();
+    training = training_lines(measured_training_costs(plan, stop));
   } catch (const InputError& error) {
     const std::string why = error.what();
     cost = "cannot be planned here: " + why.substr(0, why.find('\n'));
   }
-  fmt::print("--scale {} ({}): {}\n", scale.name, scale.summary, cost);
+  fmt::print("--scale {} ({}): {}\n{}", scale.name, scale.summary, cost, training);
 }
 
 /// What there is to do, and what it costs as far as that is known.
 void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
-              const RunArguments& arguments) {
+              const RunArguments& arguments, const std::stop_token& stop) {
   const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);
   std::optional<CostEstimate> learning;
   if (lacks_learning_data(plan)) learning = learning_cost(suite, catalog, arguments);
+  const std::vector<TrainingCost> training = measured_training_costs(plan, stop);
   if (arguments.as_json) {
     auto json = cost.as_json();
     if (learning) json["learning"] = learning->as_json();
+    for (const TrainingCost& one : training) json["training"].push_back(one.as_json());
     print_json(json);
     return;
   }
   if (learning) fmt::print("learning data, made first: {}\n", learning->describe());
-  fmt::print("{}\n", cost.describe());
-  for (const SuiteScale& scale : suite.scales) print_scale(suite, scale, catalog, arguments);
+  fmt::print("{}{}\n", training_lines(training), cost.describe());
+  for (const SuiteScale& scale : suite.scales) {
+    print_scale(suite, scale, catalog, arguments, stop);
+  }
 }
 
 /// A suite that has a study instead of cells.
@@ -153,7 +167,7 @@ ExitCode run(RunArguments arguments, std::stop_token stop) {
   plan.learning_folder = arguments.learning_folder();
 
   if (arguments.dry_run) {
-    say_cost(suite, plan, catalog, arguments);
+    say_cost(suite, plan, catalog, arguments, stop);
     return ExitCode::good;
   }
   const CostEstimate cost = estimate_cost(plan, arguments.out, arguments.jobs);

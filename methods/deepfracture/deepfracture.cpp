@@ -120,6 +120,14 @@ bool DeepFractureMethod::learns(const Options& options) const {
   return options.text("model").empty();
 }
 
+std::optional<double> DeepFractureMethod::learning_seconds(const Options& options,
+                                                           std::size_t examples,
+                                                           const TrainingMachine& machine) const {
+  if (!learns(options)) return std::nullopt;
+  const Settings settings = deepfracture::settings_from(options);
+  return deepfracture::training_seconds(settings.training().dump(), examples, machine);
+}
+
 std::vector<fs::path> DeepFractureMethod::files(const Options& options) const {
   if (learns(options)) return {};
   return {options.text("model")};

@@ -14,6 +14,8 @@ class DeepFractureMethod : public Method {
   std::unique_ptr<Breakable> load(const std::filesystem::path& folder, const Target& target,
                                   const Options& options) const override;
   bool learns(const Options& options) const override;
+  std::optional<double> learning_seconds(const Options& options, std::size_t examples,
+                                         const TrainingMachine& machine) const override;
   std::vector<std::filesystem::path> files(const Options& options) const override;
 };
 

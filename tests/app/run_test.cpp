@@ -65,6 +65,9 @@ TEST_F(Run, AnswersADryRunAsJsonToo) {
 TEST_F(Run, ADryRunTellsWhatIsLearnedFrom) {
   const Answer all = call("run quick --out results --dry-run --json", folder_.path());
   EXPECT_EQ(all.json()["learning"]["cells"], 20);
+  ASSERT_EQ(all.json()["training"].size(), 1u);
+  EXPECT_EQ(all.json()["training"][0]["method"], "deepfracture");
+  EXPECT_GT(all.json()["training"][0]["seconds"], 1);
   EXPECT_THAT(call("run quick --out results --dry-run", folder_.path()).output,
               HasSubstr("learning data, made first: 20 cells"));
   const Answer none = call("run quick --methods cvd --dry-run --json", folder_.path());

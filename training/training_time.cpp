@@ -1,0 +1,69 @@
+#include "training/training_time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/impulse_vector.h"
+#include "neural/operations.h"
+
+namespace fracbench::training {
+
+namespace {
+
+constexpr int kFinest = 64;
+// An epoch this long is told from the clock's and the scheduler's own times.
+constexpr double kLongEnough = 0.5;
+constexpr std::size_t kMostPatterns = 256;
+
+/// Balls of many sizes.
+neural::DataSet made_up_data(const neural::NetworkOptions& network, std::size_t patterns) {
+  neural::DataSet data;
+  data.shapes = {{.name = "made up", .digest = "made up", .scaling = {}}};
+  data.features = network.features;
+  for (std::size_t k = 0; k < patterns; ++k) {
+    neural::Pattern pattern;
+    pattern.name = "ball";
+    pattern.impulses.assign(kImpulseValues * static_cast<std::size_t>(network.features), 0.5f);
+    const double radius =
+        0.2 + 0.7 * static_cast<double>(k + 1) / static_cast<double>(patterns + 1);
+    for (const int r : network.resolutions) {
+      std::vector<float>& field = pattern.fields[r];
+      for (int z = 0; z < r; ++z) {
+        for (int y = 0; y < r; ++y) {
+          for (int x = 0; x < r; ++x) {
+            const auto at = [&](int n) { return (2 * n + 1.0) / r - 1; };
+            field.push_back(static_cast<float>(radius - std::hypot(at(x), at(y), at(z))));
+          }
+        }
+      }
+    }
+    data.patterns.push_back(std::move(pattern));
+  }
+  return data;
+}
+
+}  // namespace
+
+double seconds_per_step(const TrainingOptions& options, const TrainingRun& run) {
+  TrainingOptions coarse = options;
+  std::vector<int>& resolutions = coarse.network.resolutions;
+  std::erase_if(resolutions, [](int r) { return r > kFinest; });
+  if (resolutions.empty()) resolutions = {kFinest};
+  const double scale =
+      neural::training_work(options.network) / neural::training_work(coarse.network);
+  coarse.epochs = 3;  // the first is slower than those that follow
+  coarse.stable_loss = 0;
+  TrainingRun unseen = run;
+  unseen.checkpoints.clear();
+  unseen.progress = {};
+  for (std::size_t patterns = 1;; patterns *= 8) {
+    const neural::Model model = train(made_up_data(coarse.network, patterns), coarse, unseen);
+    const double epoch = std::min(model.epochs[1].seconds, model.epochs[2].seconds);
+    if (epoch > kLongEnough || patterns >= kMostPatterns) {
+      return scale * epoch / static_cast<double>(patterns);
+    }
+  }
+}
+
+}  // namespace fracbench::training
