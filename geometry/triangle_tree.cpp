@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -104,9 +103,14 @@ Mat3 principal_axes(std::span<const Vec3> points) {
 
 /// Splits the faces by the surface area heuristic over 16 bins, which is also good for distances.
 struct TriangleTree::Builder {
-  std::vector<Box> boxes;           ///< of each face
-  std::vector<std::int32_t> order;  ///< faces, in the order of the tree
-  std::vector<Vec3> corners;        ///< three of each face, in the frame of the boxes
+  struct Item {
+    Box box;
+    std::int32_t face;
+
+    Eigen::Array3f centroid2() const { return box.low + box.high; }
+  };
+  std::vector<Item> items;    ///< the faces, in the order of the tree
+  std::vector<Vec3> corners;  ///< three of each face, in the frame of the boxes
   std::vector<Node>& nodes;
   std::vector<TurnedBoxes>& turned;
 
@@ -117,15 +121,22 @@ struct TriangleTree::Builder {
 
   Box box_of(const Part& part) const {
     Box box;
-    for (std::size_t i = part.begin; i < part.end; ++i) box.add(boxes[order[i]]);
+    for (std::size_t i = part.begin; i < part.end; ++i) box.add(items[i].box);
     return box;
   }
 
-  TurnedBox turned_box_of(const Part& part) const {
+  /// Large parts of a surface are not flat: a box that is turned to fit them gains nothing.
+  static constexpr std::size_t kMostFitted = 16;
+
+  TurnedBox turned_box_of(const Part& part, const Box& upright_box) const {
+    if (part.size() > kMostFitted) {
+      return {.low = upright_box.low.matrix().cast<double>(),
+              .high = upright_box.high.matrix().cast<double>()};
+    }
     std::vector<Vec3> points;
     points.reserve(3 * part.size());
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const auto first = corners.begin() + 3 * static_cast<std::ptrdiff_t>(order[i]);
+      const auto first = corners.begin() + 3 * static_cast<std::ptrdiff_t>(items[i].face);
       points.insert(points.end(), first, first + 3);
     }
     TurnedBox upright, fitted;
@@ -138,29 +149,27 @@ struct TriangleTree::Builder {
     return fitted.half_area() < upright.half_area() ? fitted : upright;
   }
 
-  Eigen::Array3f centroid2(std::int32_t face) const { return boxes[face].low + boxes[face].high; }
-
   /// Orders the part so that it falls in two at the returned place.
   std::size_t split(const Part& part) {
     Box extent;  // of the doubled centroids
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const Eigen::Array3f c = centroid2(order[i]);
+      const Eigen::Array3f c = items[i].centroid2();
       extent.add({c, c});
     }
     int axis = 0;
     const float length = (extent.high - extent.low).maxCoeff(&axis);
-    const auto begin = order.begin() + part.begin, end = order.begin() + part.end;
+    const auto begin = items.begin() + part.begin, end = items.begin() + part.end;
     if (length > 0) {
       constexpr int bins = 16;
-      const auto bin_of = [&](std::int32_t face) {
-        const float place = (centroid2(face)[axis] - extent.low[axis]) / length;
+      const auto bin_of = [&](const Item& item) {
+        const float place = (item.centroid2()[axis] - extent.low[axis]) / length;
         return std::min(bins - 1, static_cast<int>(place * bins));
       };
       std::array<Box, bins> bin_box;
       std::array<std::size_t, bins> bin_count{};
       for (auto it = begin; it != end; ++it) {
         const int bin = bin_of(*it);
-        bin_box[bin].add(boxes[*it]);
+        bin_box[bin].add(it->box);
         ++bin_count[bin];
       }
       std::array<float, bins> right_cost{};
@@ -188,14 +197,14 @@ struct TriangleTree::Builder {
       }
       if (best_bin > 0) {
         const auto middle = std::stable_partition(
-            begin, end, [&](std::int32_t face) { return bin_of(face) < best_bin; });
-        return static_cast<std::size_t>(middle - order.begin());
+            begin, end, [&](const Item& item) { return bin_of(item) < best_bin; });
+        return static_cast<std::size_t>(middle - items.begin());
       }
     }
     const std::size_t middle = part.begin + part.size() / 2;
-    std::nth_element(begin, order.begin() + middle, end, [&](std::int32_t l, std::int32_t r) {
-      const float cl = centroid2(l)[axis], cr = centroid2(r)[axis];
-      return cl != cr ? cl < cr : l < r;
+    std::nth_element(begin, items.begin() + middle, end, [&](const Item& l, const Item& r) {
+      const float cl = l.centroid2()[axis], cr = r.centroid2()[axis];
+      return cl != cr ? cl < cr : l.face < r.face;
     });
     return middle;
   }
@@ -218,7 +227,7 @@ struct TriangleTree::Builder {
     turned.emplace_back();
     for (std::size_t k = 0; k < 4; ++k) {
       const Box box = k < parts.size() ? box_of(parts[k]) : Box{};
-      const TurnedBox fit = k < parts.size() ? turned_box_of(parts[k]) : TurnedBox{};
+      const TurnedBox fit = k < parts.size() ? turned_box_of(parts[k], box) : TurnedBox{};
       for (int which = 0; which < 3; ++which) {
         for (int axis = 0; axis < 3; ++axis) {
           turned[index].axis[which][axis][k] = static_cast<float>(fit.axes(which, axis));
@@ -254,21 +263,21 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   const double half = (high - low).maxCoeff() / 2;
   scale_ = half > 0 && std::isfinite(1 / half) ? 1 / half : 1;
 
-  Builder builder{std::vector<Box>(count), std::vector<std::int32_t>(count), {}, nodes_, turned_};
+  Builder builder{std::vector<Builder::Item>(count), {}, nodes_, turned_};
   builder.corners.reserve(3 * count);
   for (std::size_t f = 0; f < count; ++f) {
+    builder.items[f].face = static_cast<std::int32_t>(f);
     for (int k = 0; k < 3; ++k) {
       builder.corners.push_back((mesh.corner(f, k) - center_) * scale_);
       const Eigen::Array3f p = builder.corners.back().cast<float>().array();
-      builder.boxes[f].add({p, p});
+      builder.items[f].box.add({p, p});
     }
   }
-  std::iota(builder.order.begin(), builder.order.end(), 0);
   nodes_.reserve(count / 2 + 1);
   turned_.reserve(count / 2 + 1);
   builder.build({0, count});
   triangles_.reserve(count);
-  for (const std::int32_t face : builder.order) triangles_.push_back(prepare(mesh, face));
+  for (const Builder::Item& item : builder.items) triangles_.push_back(prepare(mesh, item.face));
 }
 
 namespace {

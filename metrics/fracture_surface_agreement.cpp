@@ -57,14 +57,35 @@ std::vector<Vec3> points_on(const TriangleMesh& mesh, int count, Random& random)
   return points;
 }
 
+constexpr std::size_t kAtATime = 8;
+
+/// Calls next(distance) for the points in their order until it returns false. Points come face by
+/// face: those in a row are close together, and what was near one is a good start for the others.
+template <typename Next>
+void for_each_distance(const std::vector<Vec3>& points, const TriangleTree& surface,
+                       const Next& next) {
+  std::int32_t near = -1;
+  for (std::size_t first = 0; first < points.size(); first += kAtATime) {
+    TriangleTree::Group<kAtATime> group;
+    for (std::size_t k = 0; k < kAtATime; ++k) {
+      group.queries[k] = points[std::min(first + k, points.size() - 1)];
+      group.start[k] = near;
+    }
+    const auto found = surface.nearest(group);
+    for (std::size_t k = 0; k < kAtATime && first + k < points.size(); ++k) {
+      if (!next(std::sqrt(found[k].squared_distance))) return;
+    }
+    near = found[kAtATime - 1].triangle;
+  }
+}
+
 std::vector<double> distances(const std::vector<Vec3>& points, const TriangleTree& surface) {
   std::vector<double> result;
-  std::int32_t near = -1;  // points come face by face: what was near the last one is a good start
-  for (const Vec3& p : points) {
-    const TriangleTree::Nearest nearest = surface.nearest(p, near);
-    near = nearest.triangle;
-    result.push_back(std::sqrt(nearest.squared_distance));
-  }
+  result.reserve(points.size());
+  for_each_distance(points, surface, [&](double distance) {
+    result.push_back(distance);
+    return true;
+  });
   return result;
 }
 
@@ -92,8 +113,16 @@ struct SampledFracture::Sampled {
   BoundingBox box = {};
   double volume = 0;  ///< inside, where it is closed
 
-  double mean_distance(const Sampled& other) const {
-    return mean(distances(points, other.surface));
+  /// Mean distance of the points from the other surface; what is more than `matters` may be told as
+  /// any number above it.
+  double mean_distance(const Sampled& other, double matters) const {
+    const auto count = static_cast<double>(points.size());
+    double sum = 0;
+    for_each_distance(points, other.surface, [&](double distance) {
+      sum += distance;
+      return sum <= matters * count;
+    });
+    return sum / count;
   }
 
   /// At most as much; takes no time.
@@ -143,26 +172,36 @@ std::optional<double> SampledFracture::fragment_chamfer(const SampledFracture& o
   std::vector<double> nearest(fragments_.size(), far);
   std::vector<double> nearest_of_other(other.fragments_.size(), far);
   struct Pair {
-    double least;  ///< Chamfer distance that it may have
     std::size_t i, j;
-    double least_back;
+    double least_forth, least_back;  ///< mean distances that it may have
+    double least() const { return (least_forth + least_back) / 2; }
   };
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < fragments_.size(); ++i) {
     for (std::size_t j = 0; j < other.fragments_.size(); ++j) {
-      const double forth = fragments_[i].least_mean_distance(other.fragments_[j]);
-      const double back = other.fragments_[j].least_mean_distance(fragments_[i]);
-      pairs.push_back({.least = (forth + back) / 2, .i = i, .j = j, .least_back = back});
+      pairs.push_back({.i = i,
+                       .j = j,
+                       .least_forth = fragments_[i].least_mean_distance(other.fragments_[j]),
+                       .least_back = other.fragments_[j].least_mean_distance(fragments_[i])});
     }
   }
   // Those that may be near come first, and spare most others the looking.
   std::ranges::sort(pairs, {}, &Pair::least);
-  for (const auto& [least, i, j, least_back] : pairs) {
+  for (const Pair& pair : pairs) {
+    const auto [i, j, least_forth, least_back] = pair;
     const double matters_below = std::max(nearest[i], nearest_of_other[j]);
-    if (least > matters_below) continue;
-    const double forth = fragments_[i].mean_distance(other.fragments_[j]);
-    if ((forth + least_back) / 2 > matters_below) continue;
-    const double chamfer = (forth + other.fragments_[j].mean_distance(fragments_[i])) / 2;
+    if (pair.least() > matters_below) continue;
+    // A little more, so that rounding never hides what is no farther than the nearest.
+    const double matters = 2 * matters_below * (1 + 1e-12);
+    // The way of which less is known tells more: a small fragment is amid a large one's box.
+    const bool is_forth_first = least_forth < least_back;
+    const Sampled& a = is_forth_first ? fragments_[i] : other.fragments_[j];
+    const Sampled& b = is_forth_first ? other.fragments_[j] : fragments_[i];
+    const double first = a.mean_distance(b, matters - std::max(least_forth, least_back));
+    if (first + std::max(least_forth, least_back) > matters) continue;
+    const double second = b.mean_distance(a, matters - first);
+    if (first + second > matters) continue;
+    const double chamfer = (first + second) / 2;
     nearest[i] = std::min(nearest[i], chamfer);
     nearest_of_other[j] = std::min(nearest_of_other[j], chamfer);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -98,21 +99,29 @@ TriangleMesh arrow(const Vec3& direction, double length) {
   return mesh;
 }
 
-/// Twice the area of the fracture surface, and the sum of its normals weighted with area.
-struct FractureSide {
-  double area2 = 0;
-  Vec3 normal = Vec3::Zero();
-};
-
-FractureSide fracture_side(const Fragment& fragment) {
-  FractureSide side;
+double fracture_area(const Fragment& fragment) {
+  double area = 0;
   for (std::size_t f = 0; f < fragment.faces.size(); ++f) {
-    if (!fragment.faces[f].is_fracture()) continue;
-    const Vec3 normal = area_vector2(fragment.mesh, f);
-    side.area2 += normal.norm();
-    side.normal += normal;
+    if (fragment.faces[f].is_fracture()) area += area_vector2(fragment.mesh, f).norm() / 2;
   }
-  return side;
+  return area;
+}
+
+/// Outward, of the crack that takes most of the fragment's surface: a fragment amid others has
+/// fracture surface all around. Zero where there is none.
+Vec3 largest_crack_normal(const Fragment& fragment) {
+  std::map<std::int32_t, Vec3> cracks;
+  for (std::size_t f = 0; f < fragment.faces.size(); ++f) {
+    const FragmentFace& face = fragment.faces[f];
+    if (!face.is_fracture()) continue;
+    const auto [crack, is_new] = cracks.try_emplace(face.interface, Vec3::Zero());
+    crack->second += area_vector2(fragment.mesh, f);
+  }
+  Vec3 largest = Vec3::Zero();
+  for (const auto& [crack, normal] : cracks) {
+    if (normal.norm() > largest.norm()) largest = normal;
+  }
+  return largest;
 }
 
 }  // namespace
@@ -151,7 +160,7 @@ Picture collision_picture_of(const Record& record, const TriangleMesh& target,
   const double reach = reach_of(target);
   const View view{.centre = bounding_box(target).center(),
                   .towards = way_to_look(record.outcome.scene),
-                  .radius = 1.25 * reach,  // arrows stand beside the body
+                  .radius = 1.35 * reach,  // arrows stand beside the body
                   .wireframe = options.wireframe};
   std::vector<TriangleMesh> arrows;
   std::vector<DrawnMesh> meshes{
@@ -161,7 +170,7 @@ Picture collision_picture_of(const Record& record, const TriangleMesh& target,
   for (std::size_t i = 0; impact && i < impact->impulses.size(); ++i) {
     const Impulse& impulse = impact->impulses[i];
     if (!(impulse.direction.norm() > 0)) continue;
-    arrows.push_back(arrow(impulse.direction.normalized(), 0.7 * reach));
+    arrows.push_back(arrow(impulse.direction.normalized(), 0.5 * reach));
     meshes.push_back({.mesh = &arrows.back(),
                       .colours = std::vector<Vec3>(arrows.back().faces.size(), kArrow),
                       .shift = impulse.point});
@@ -173,9 +182,9 @@ std::optional<std::size_t> most_cracked(const Fragments& fragments) {
   std::optional<std::size_t> most;
   double largest = 0;
   for (std::size_t n = 0; n < fragments.size(); ++n) {
-    const double area2 = fracture_side(fragments[n]).area2;
-    if (area2 > largest) {
-      largest = area2;
+    const double area = fracture_area(fragments[n]);
+    if (area > largest) {
+      largest = area;
       most = n;
     }
   }
@@ -183,7 +192,7 @@ std::optional<std::size_t> most_cracked(const Fragments& fragments) {
 }
 
 Picture fracture_picture_of(const Fragment& fragment, const RecordPictureOptions& options) {
-  const Vec3 normal = fracture_side(fragment).normal;
+  const Vec3 normal = largest_crack_normal(fragment);
   // From a little above and aside, so that steps in the surface have shades.
   const Vec3 towards = normal.norm() > 0 ? Vec3(-normal.normalized() + Vec3(0.15, 0.15, -0.15))
                                          : Vec3(-0.5, -0.6, -0.45);

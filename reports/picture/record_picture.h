@@ -30,7 +30,7 @@ Picture collision_picture_of(const Record& record, const TriangleMesh& target,
 /// The place in `fragments` of the one with the largest fracture surface; none where nothing broke.
 std::optional<std::size_t> most_cracked(const Fragments& fragments);
 
-/// A fragment alone, seen against its fracture surface, which is in a colour of its own.
+/// A fragment alone, seen against its largest crack; fracture surface is in a colour of its own.
 Picture fracture_picture_of(const Fragment& fragment, const RecordPictureOptions& options = {});
 
 /// How many frames of motion a record has.
