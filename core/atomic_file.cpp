@@ -5,10 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <optional>
+#include <set>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 
@@ -54,8 +58,10 @@ class OpenFile {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!remove_.empty()) ::unlink(remove_.c_str());
   }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
+  OpenFile(OpenFile&& other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)),
+        remove_(std::exchange(other.remove_, {})) {}
+  OpenFile& operator=(OpenFile&&) = delete;
 
   bool is_open() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
@@ -83,10 +89,10 @@ class OpenFile {
   std::filesystem::path remove_;
 };
 
-}  // namespace
-
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
-                           std::filesystem::path temporary) {
+/// The file of bytes that is to be renamed to `path`, not closed yet; none where that is a device,
+/// which has the bytes then.
+std::optional<OpenFile> written(const std::filesystem::path& path, std::string_view bytes,
+                                const std::filesystem::path& temporary) {
   const auto check = [&](int error) {
     if (error != 0) fail(path, bytes.size(), error);
   };
@@ -97,27 +103,88 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
     if (!device.is_open()) check(errno);
     check(device.write(bytes));
     check(device.close());
-    return;
-  }
-
-  static std::atomic<unsigned> serial{0};
-  if (temporary.empty()) {
-    temporary = path.parent_path() / fmt::format(".fracbench-{}-{}.part", ::getpid(), serial++);
+    return std::nullopt;
   }
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.is_open()) check(errno);
   file.remove_at_end(temporary);
   check(file.write(bytes));
-  if (::fsync(file.descriptor()) != 0) check(errno);
-  check(file.close());
-  if (::rename(temporary.c_str(), path.c_str()) != 0) check(errno);
-  file.keep();
+  return file;
+}
 
-  // The new name itself is safe once the folder is synced; some file systems cannot, and the file
-  // is whole either way.
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+/// A name that nobody else uses.
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  static std::atomic<unsigned> serial{0};
+  return path.parent_path() / fmt::format(".fracbench-{}-{}.part", ::getpid(), serial++);
+}
+
+/// New names in a folder are safe once it is synced; some file systems cannot, and the files are
+/// whole either way.
+void sync_names(const std::filesystem::path& folder) {
   const OpenFile directory(folder, O_RDONLY | O_DIRECTORY);
   if (directory.is_open()) ::fsync(directory.descriptor());
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           std::filesystem::path temporary) {
+  if (temporary.empty()) temporary = temporary_beside(path);
+  auto file = written(path, bytes, temporary);
+  if (!file) return;
+  if (::fsync(file->descriptor()) != 0) fail(path, bytes.size(), errno);
+  if (const int error = file->close()) fail(path, bytes.size(), error);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, bytes.size(), errno);
+  file->keep();
+  sync_names(folder_of(path));
+}
+
+AtomicFiles::~AtomicFiles() {
+  for (const Added& file : added_) ::unlink(file.temporary.c_str());
+}
+
+void AtomicFiles::add(const std::filesystem::path& path, std::string_view bytes) {
+  constexpr std::size_t many = 128;
+  const std::filesystem::path temporary = temporary_beside(path);
+  auto file = written(path, bytes, temporary);
+  if (!file) return;
+  if (const int error = file->close()) fail(path, bytes.size(), error);
+  {
+    const std::scoped_lock lock(mutex_);
+    added_.push_back({path, temporary, bytes.size()});
+    file->keep();
+    if (added_.size() < many) return;
+  }
+  commit();
+}
+
+void AtomicFiles::commit() {
+  AtomicFiles now;  // removes what is left of them where this throws
+  {
+    const std::scoped_lock lock(mutex_);
+    now.added_.swap(added_);
+  }
+  std::set<std::filesystem::path> folders;
+  for (const Added& file : now.added_) {
+    if (!folders.insert(folder_of(file.path)).second) continue;
+    const OpenFile directory(folder_of(file.path), O_RDONLY | O_DIRECTORY);
+    if (!directory.is_open() || ::syncfs(directory.descriptor()) != 0) {
+      fail(file.path, file.size, errno);
+    }
+  }
+  std::ranges::reverse(now.added_);  // so that the first can be taken from the end
+  while (!now.added_.empty()) {
+    const Added& file = now.added_.back();
+    if (::rename(file.temporary.c_str(), file.path.c_str()) != 0) {
+      fail(file.path, file.size, errno);
+    }
+    now.added_.pop_back();
+  }
+  for (const std::filesystem::path& folder : folders) sync_names(folder);
 }
 
 }  // namespace fracbench

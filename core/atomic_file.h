@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <mutex>
 #include <string_view>
+#include <vector>
 
 namespace fracbench {
 
@@ -13,5 +16,31 @@ namespace fracbench {
 /// and clean up after a process that was killed; by default it is one of this process's own.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            std::filesystem::path temporary = {});
+
+/// Many files, each of which appears whole or not at all, for one wait for the disk: those that
+/// were added take their names together, when what is in them is on the disk. Safe to use from many
+/// threads.
+class AtomicFiles {
+ public:
+  AtomicFiles() = default;
+  /// Removes what was added and not committed.
+  ~AtomicFiles();
+  AtomicFiles(const AtomicFiles&) = delete;
+  AtomicFiles& operator=(const AtomicFiles&) = delete;
+
+  /// Throws what write_file_atomically throws. Now and then commits by itself.
+  void add(const std::filesystem::path& path, std::string_view bytes);
+  /// Likewise.
+  void commit();
+
+ private:
+  struct Added {
+    std::filesystem::path path, temporary;
+    std::size_t size;
+  };
+
+  std::mutex mutex_;
+  std::vector<Added> added_;
+};
 
 }  // namespace fracbench

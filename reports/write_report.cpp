@@ -71,6 +71,7 @@ std::vector<ReportFile> render_report(const ReportInput& input,
 
 std::filesystem::path write_files(const std::vector<ReportFile>& files,
                                   const std::filesystem::path& folder) {
+  AtomicFiles written;
   std::filesystem::path last;
   for (const ReportFile& file : files) {
     last = folder / file.name;
@@ -80,8 +81,9 @@ std::filesystem::path write_files(const std::vector<ReportFile>& files,
       throw InputError(fmt::format("{}: the folder for the report cannot be made: {}",
                                    last.parent_path().string(), error.message()));
     }
-    write_file_atomically(last, file.bytes);
+    written.add(last, file.bytes);
   }
+  written.commit();
   return last;
 }
 

@@ -70,6 +70,7 @@ class CellFiles {
       viewed[i] = write(cells_[i]);
       note_done();
     });
+    files_.commit();
     for (const CellSummary& cell : cells_) {
       const auto found = complaints_.find(&cell);
       if (found != complaints_.end() && options_.message) options_.message(found->second);
@@ -97,7 +98,7 @@ class CellFiles {
     try {
       const Record record = read_record(results_, cell.key);
       const TriangleMesh& target = target_of(record);
-      if (needs_view) write_file_atomically(view, cell_view(record, target, options_.view));
+      if (needs_view) files_.add(view, cell_view(record, target, options_.view));
       if (needs_mesh) {
         const SceneResult& scene = record.outcome.scene;
         write_motion(mesh, target, scene.fragments, scene.trajectory, ball_radii(record));
@@ -126,7 +127,7 @@ class CellFiles {
       const std::scoped_lock one_at_a_time(renderer_);
       return picture_of(record, target, options);
     }();
-    write_file_atomically(file, png_bytes(picture));
+    files_.add(file, png_bytes(picture));
   }
 
   void note_done() {
@@ -143,6 +144,7 @@ class CellFiles {
   const PageFilesOptions& options_;
   fs::path cell_folder_;
   std::map<const CellSummary*, fs::path> pictures_;  ///< one of each method and shape
+  AtomicFiles files_;
   std::mutex renderer_;
   std::mutex mutex_;  // guards all that follows
   std::map<std::string, TriangleMesh> targets_;

@@ -9,6 +9,8 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <thread>
+#include <vector>
 
 #include "core/error.h"
 
@@ -110,6 +112,66 @@ TEST_F(AtomicFile, NeedsPermissionToWrite) {
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_THAT(message(folder_ / "data", "x"), HasSubstr("Permission denied"));
   fs::permissions(folder_, fs::perms::owner_all);
+}
+
+TEST_F(AtomicFile, ManyAppearTogether) {
+  write_file_atomically(folder_ / "0", "old");
+  fs::create_directory(folder_ / "below");
+  AtomicFiles files;
+  files.add(folder_ / "0", "new");
+  files.add(folder_ / "below" / "1", "other");
+  EXPECT_EQ(content(folder_ / "0"), "old");
+  EXPECT_FALSE(fs::exists(folder_ / "below" / "1"));
+  files.commit();
+  EXPECT_EQ(content(folder_ / "0"), "new");
+  EXPECT_EQ(content(folder_ / "below" / "1"), "other");
+  EXPECT_EQ(this->files(), 2u);
+}
+
+TEST_F(AtomicFile, OfManyNothingIsLeftUnlessTheyAreCommitted) {
+  {
+    AtomicFiles files;
+    for (int i = 0; i < 3; ++i) files.add(folder_ / std::to_string(i), "x");
+    EXPECT_EQ(this->files(), 3u) << "under other names";
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(AtomicFile, AnErrorAmongManyNamesTheFileAndLeavesNothingHalf) {
+  AtomicFiles files;
+  EXPECT_THROW(files.add(folder_ / "missing" / "data", "x"), InputError);
+  files.add(folder_ / "good", "x");
+  files.add(folder_ / "data", "x");
+  fs::create_directory(folder_ / "data");  // its name is taken when it wants to appear
+  try {
+    files.commit();
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr((folder_ / "data").string()));
+  }
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_THAT(entry.path().extension(), "") << entry.path();
+  }
+}
+
+TEST_F(AtomicFile, ManyFromManyThreadsAllArrive) {
+  constexpr int each = 100;
+  AtomicFiles files;
+  std::vector<std::jthread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < each; ++i) {
+        const std::string name = std::to_string(t) + "_" + std::to_string(i);
+        files.add(folder_ / name, name);
+      }
+    });
+  }
+  threads.clear();
+  files.commit();
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_EQ(content(entry.path()), entry.path().filename().string());
+  }
+  EXPECT_EQ(this->files(), 4u * each);
 }
 
 }  // namespace
