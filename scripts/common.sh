@@ -23,12 +23,13 @@ build_jobs() {
   echo $((jobs < 1 ? 1 : jobs))
 }
 
-# build PRESET [TARGET]: configures and builds everything, or one target.
+# build PRESET [TARGET ...]: configures and builds everything, or these targets.
 build() {
-  local preset=$1 target=${2:-all}
+  local preset=$1
+  shift
   local log
   log=$(mktemp)
   cmake --preset "$preset" -S . >"$log" 2>&1 || { cat "$log"; rm -f "$log"; exit 1; }
   rm -f "$log"
-  cmake --build --preset "$preset" --target "$target" --parallel "$(build_jobs)"
+  cmake --build --preset "$preset" --target "${@:-all}" --parallel "$(build_jobs)"
 }

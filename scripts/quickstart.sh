@@ -11,8 +11,7 @@ esac
 
 ./scripts/install.sh
 say "building (a first build takes some minutes)"
-build release fracbench
-build release fracbench-train  # which deepfracture calls
+build release fracbench fracbench-train  # which deepfracture calls
 say "running the quick suite"
 build/release/bin/fracbench run quick --out results/quick --jobs "$(nproc)"
 build/release/bin/fracbench report results/quick --out results/quick/report
