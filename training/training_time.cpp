@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/impulse_vector.h"
+#include "core/voxel_grid.h"
 #include "neural/operations.h"
 
 namespace fracbench::training {
@@ -13,7 +15,7 @@ namespace {
 
 constexpr int kFinest = 64;
 // An epoch this long is told from the clock's and the scheduler's own times.
-constexpr double kLongEnough = 0.5;
+constexpr double kLongEnough = 0.25;  // s
 constexpr std::size_t kMostPatterns = 256;
 
 /// Balls of many sizes.
@@ -28,15 +30,15 @@ neural::DataSet made_up_data(const neural::NetworkOptions& network, std::size_t 
     const double radius =
         0.2 + 0.7 * static_cast<double>(k + 1) / static_cast<double>(patterns + 1);
     for (const int r : network.resolutions) {
-      std::vector<float>& field = pattern.fields[r];
+      VoxelGrid<float> field = unit_grid<float>(r);
       for (int z = 0; z < r; ++z) {
         for (int y = 0; y < r; ++y) {
           for (int x = 0; x < r; ++x) {
-            const auto at = [&](int n) { return (2 * n + 1.0) / r - 1; };
-            field.push_back(static_cast<float>(radius - std::hypot(at(x), at(y), at(z))));
+            field.at(x, y, z) = static_cast<float>(radius - field.position(x, y, z).norm());
           }
         }
       }
+      pattern.fields[r] = std::move(field.values);
     }
     data.patterns.push_back(std::move(pattern));
   }
@@ -57,12 +59,15 @@ double seconds_per_step(const TrainingOptions& options, const TrainingRun& run) 
   TrainingRun unseen = run;
   unseen.checkpoints.clear();
   unseen.progress = {};
-  for (std::size_t patterns = 1;; patterns *= 8) {
+  for (std::size_t patterns = 1;;) {
     const neural::Model model = train(made_up_data(coarse.network, patterns), coarse, unseen);
     const double epoch = std::min(model.epochs[1].seconds, model.epochs[2].seconds);
     if (epoch > kLongEnough || patterns >= kMostPatterns) {
       return scale * epoch / static_cast<double>(patterns);
     }
+    // As many as should do, where so short a time tells that.
+    const double growth = std::clamp(1.2 * kLongEnough / epoch, 1.2, 16.0);
+    patterns = static_cast<std::size_t>(std::ceil(growth * static_cast<double>(patterns)));
   }
 }
 
