@@ -209,19 +209,29 @@ struct TriangleTree::Builder {
     return middle;
   }
 
-  /// Makes the node of a part and returns its index.
-  std::int32_t build(const Part& whole) {
-    std::vector<Part> parts{whole};
+  /// Four of them, or one for each face where there are not more.
+  std::vector<Part> parts_of(const Part& whole) {
+    std::vector<Part> parts;
+    if (whole.size() <= 4) {
+      for (std::size_t i = whole.begin; i < whole.end; ++i) parts.push_back({i, i + 1});
+      return parts;
+    }
+    parts.push_back(whole);
     while (parts.size() < 4) {
       const auto largest =
           std::max_element(parts.begin(), parts.end(),
                            [](const Part& l, const Part& r) { return l.size() < r.size(); });
-      if (largest->size() < 2) break;
       const Part part = *largest;
       const std::size_t middle = split(part);
       *largest = {part.begin, middle};
       parts.insert(largest + 1, Part{middle, part.end});
     }
+    return parts;
+  }
+
+  /// Makes the node of a part and returns its index.
+  std::int32_t build(const Part& whole) {
+    const std::vector<Part> parts = parts_of(whole);
     const auto index = static_cast<std::int32_t>(nodes.size());
     nodes.emplace_back();
     turned.emplace_back();

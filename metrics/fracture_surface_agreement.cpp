@@ -1,9 +1,12 @@
 #include "metrics/fracture_surface_agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <unordered_set>
 #include <vector>
 
 #include "geometry/measures.h"
@@ -32,6 +35,34 @@ TriangleMesh fracture_surface(const Fragments& fragments) {
     }
   }
   return surface;
+}
+
+/// The same surface with one face in place of several that have the same corners: where both sides
+/// of a crack are divided alike it has each face twice.
+TriangleMesh without_twins(const TriangleMesh& mesh) {
+  using Corners = std::array<std::array<double, 3>, 3>;
+  struct Hash {
+    std::size_t operator()(const Corners& corners) const {
+      std::size_t hash = 0;
+      for (const auto& corner : corners) {
+        for (const double x : corner) hash = hash * 0x9e3779b97f4a7c15u + std::hash<double>()(x);
+      }
+      return hash;
+    }
+  };
+  std::unordered_set<Corners, Hash> seen;
+  seen.reserve(mesh.faces.size());
+  TriangleMesh result{.vertices = mesh.vertices, .faces = {}};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    Corners corners;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3& corner = mesh.corner(f, k);
+      corners[k] = {corner.x(), corner.y(), corner.z()};
+    }
+    std::ranges::sort(corners);
+    if (seen.insert(corners).second) result.faces.push_back(mesh.faces[f]);
+  }
+  return result;
 }
 
 /// Points on the surface, as many to an area everywhere: the area is divided into equal strips with
@@ -141,7 +172,7 @@ SampledFracture::SampledFracture(const Fragments& fragments, const SurfaceSample
   std::vector<Vec3> on_cracks = points_on(cracks, samples.fracture_surface, random);
   if (!on_cracks.empty()) {
     surface_ = std::make_unique<Sampled>(
-        Sampled{.surface = TriangleTree(cracks), .points = std::move(on_cracks)});
+        Sampled{.surface = TriangleTree(without_twins(cracks)), .points = std::move(on_cracks)});
   }
   for (const Fragment& fragment : fragments) {
     std::vector<Vec3> points = points_on(fragment.mesh, samples.fragment, random);
@@ -195,10 +226,11 @@ std::optional<double> SampledFracture::fragment_chamfer(const SampledFracture& o
     const double matters = 2 * matters_below * (1 + 1e-12);
     // The way of which less is known tells more: a small fragment is amid a large one's box.
     const bool is_forth_first = least_forth < least_back;
+    const double least_second = std::max(least_forth, least_back);
     const Sampled& a = is_forth_first ? fragments_[i] : other.fragments_[j];
     const Sampled& b = is_forth_first ? other.fragments_[j] : fragments_[i];
-    const double first = a.mean_distance(b, matters - std::max(least_forth, least_back));
-    if (first + std::max(least_forth, least_back) > matters) continue;
+    const double first = a.mean_distance(b, matters - least_second);
+    if (first + least_second > matters) continue;
     const double second = b.mean_distance(a, matters - first);
     if (first + second > matters) continue;
     const double chamfer = (first + second) / 2;
