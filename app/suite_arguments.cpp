@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "core/text.h"
 #include "harness/collision_store.h"
@@ -91,15 +92,29 @@ CostEstimate learning_cost(const Suite& suite, const Catalog& catalog, const Sui
                        a.learning_folder(), a.jobs);
 }
 
+bool learns(const Plan& plan) {
+  return std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
+}
+
 std::vector<TrainingCost> measured_training_costs(const Plan& plan, const std::stop_token& stop) {
-  const bool learns =
-      std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
-  if (!learns) return {};
+  if (!learns(plan)) return {};
   const bool shown = is_terminal(STDERR_FILENO);
   if (shown) fmt::print(stderr, "measuring some steps of training ...\r");
   std::vector<TrainingCost> costs = training_costs(plan, stop);
   if (shown) fmt::print(stderr, "{:36}\r", "");
   return costs;
+}
+
+std::string training_lines(const std::vector<TrainingCost>& costs) {
+  std::string text;
+  for (const TrainingCost& cost : costs) {
+    text += fmt::format("training, where none is kept: {}\n", cost.describe());
+  }
+  return text;
+}
+
+void add_training(const std::vector<TrainingCost>& costs, nlohmann::ordered_json& json) {
+  for (const TrainingCost& cost : costs) json["training"].push_back(cost.as_json());
 }
 
 LearningResult make_learning_data(const Suite& suite, const Catalog& catalog,

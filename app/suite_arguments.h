@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -56,8 +57,17 @@ class CellWorkers {
 CostEstimate learning_cost(const Suite& suite, const Catalog& catalog,
                            const SuiteArguments& arguments);
 
+/// Whether any of the plan's methods learns from data.
+bool learns(const Plan& plan);
+
 /// What the plan's methods take to learn, measured while standard error says so.
 std::vector<TrainingCost> measured_training_costs(const Plan& plan, const std::stop_token& stop);
+
+/// A line for each of them.
+std::string training_lines(const std::vector<TrainingCost>& costs);
+
+/// As the list "training" of an object; left out where nothing is trained.
+void add_training(const std::vector<TrainingCost>& costs, nlohmann::ordered_json& json);
 
 /// Makes the learning data of the suite for the shapes that were asked for, with the progress on
 /// standard error, and says there what came of it.

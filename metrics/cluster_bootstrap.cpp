@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/sum.h"
@@ -110,6 +111,12 @@ BootstrapInterval interval_of_all(double estimate, const std::vector<double>& va
 
 }  // namespace
 
+ClusterStatistics only(ClusterStatistic statistic) {
+  return [statistic = std::move(statistic)](std::span<const std::size_t> chosen) {
+    return Values{statistic(chosen)};
+  };
+}
+
 std::vector<std::optional<BootstrapInterval>> joint_cluster_bootstrap(
     std::size_t clusters, const ClusterStatistics& statistics, const BootstrapOptions& options,
     Random& random) {
@@ -155,10 +162,7 @@ std::optional<BootstrapInterval> cluster_bootstrap(std::size_t clusters,
                                                    const ClusterStatistic& statistic,
                                                    const BootstrapOptions& options,
                                                    Random& random) {
-  const ClusterStatistics alone = [&](std::span<const std::size_t> chosen) {
-    return Values{statistic(chosen)};
-  };
-  return joint_cluster_bootstrap(clusters, alone, options, random).front();
+  return joint_cluster_bootstrap(clusters, only(statistic), options, random).front();
 }
 
 }  // namespace fracbench

@@ -51,6 +51,9 @@ std::optional<BootstrapInterval> cluster_bootstrap(std::size_t clusters,
 using ClusterStatistics =
     std::function<std::vector<std::optional<double>>(std::span<const std::size_t> chosen)>;
 
+/// The list of a statistic that stands alone.
+ClusterStatistics only(ClusterStatistic statistic);
+
 /// The same for statistics that have work in common: all of them of the same resamples. An interval
 /// for each of `statistics`, in their order, none where the above gives none.
 std::vector<std::optional<BootstrapInterval>> joint_cluster_bootstrap(

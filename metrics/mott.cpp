@@ -46,10 +46,9 @@ std::optional<Mott> Mott::with_mean(double mean_above, double cut) {
   // rounding ends their fall.
   const double excess = mean_above / cut - 1;
   double y = std::min(excess / 3, std::cbrt(excess / 6));
-  for (double next = y; next > 0; y = next) {
-    const double value = y * (3 + y * (6 + y * 6)) - excess;
-    next = y - value / (3 + y * (12 + y * 18));
-    if (!(next < y)) break;
+  for (double last = 2 * y; y < last;) {
+    last = y;
+    y -= (y * (3 + y * (6 + y * 6)) - excess) / (3 + y * (12 + y * 18));
   }
   return Mott{.mean_volume = 6 * cut * y * y * y, .cut = cut};
 }

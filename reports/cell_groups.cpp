@@ -135,10 +135,7 @@ std::vector<TableCell> joint_estimates(std::size_t collisions, const ClusterStat
 
 TableCell estimate(std::size_t collisions, const ClusterStatistic& statistic,
                    const ReportInput& input, std::string_view name) {
-  const ClusterStatistics alone = [&](std::span<const std::size_t> chosen) {
-    return std::vector<std::optional<double>>{statistic(chosen)};
-  };
-  return joint_estimates(collisions, alone, input, name).front();
+  return joint_estimates(collisions, only(statistic), input, name).front();
 }
 
 TableCell estimate(std::span<const CellRef> cells,

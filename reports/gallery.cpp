@@ -2,26 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "core/error.h"
-#include "geometry/measures.h"
 #include "harness/record_store.h"
 #include "reports/picture/record_picture.h"
 #include "reports/picture/sheet.h"
+#include "reports/scene_parts.h"
 
 namespace fracbench {
 
 namespace {
 
 constexpr int kRows = 3;
+constexpr int kSize = 320;  // of each picture in a row, px
 
 GallerySurface surface_of(const std::string& label, const Fragments& fragments) {
   GallerySurface surface{.label = label, .fragments = fragments.size()};
   double edges = 0;
   for (const Fragment& fragment : fragments) {
+    surface.area += fracture_area(fragment);
     for (std::size_t f = 0; f < fragment.faces.size(); ++f) {
       if (!fragment.faces[f].is_fracture()) continue;
       ++surface.faces;
-      surface.area += area_vector2(fragment.mesh, f).norm() / 2;
       for (int k = 0; k < 3; ++k) {
         edges += (fragment.mesh.corner(f, (k + 1) % 3) - fragment.mesh.corner(f, k)).norm();
       }
@@ -32,7 +35,7 @@ GallerySurface surface_of(const std::string& label, const Fragments& fragments) 
 }
 
 GalleryRow row_of(const std::filesystem::path& folder, const SheetRow& sheet,
-                  const std::vector<std::string>& columns, int size) {
+                  const std::vector<std::string>& columns) {
   GalleryRow row;
   std::vector<const CellSummary*> cells;
   for (const std::string& label : columns) {
@@ -41,25 +44,24 @@ GalleryRow row_of(const std::filesystem::path& folder, const SheetRow& sheet,
   }
   row.shape = cells.front()->shape;
   row.scenario = cells.front()->scenario;
-  row.picture = Picture(size * (1 + static_cast<int>(cells.size())), size * kRows);
-  RecordPictureOptions look{.width = size, .height = size};
-  bool is_collision_drawn = false;
-  int x = size;
+  row.picture = Picture(kSize * (1 + static_cast<int>(cells.size())), kSize * kRows);
+  const RecordPictureOptions look{.width = kSize, .height = kSize};
+  std::optional<TriangleMesh> target;
+  int x = kSize;
   for (const CellSummary* cell : cells) {
     try {
       const Record record = read_record(folder, cell->key);
-      const TriangleMesh target = read_target(folder, record.identity.shape_digest);
-      if (!is_collision_drawn) {
-        paste(collision_picture_of(record, target, look), 0, 0, row.picture);
-        is_collision_drawn = true;
+      if (!target) {
+        target = read_target(folder, record.identity.shape_digest);
+        paste(collision_picture_of(record, *target, look), 0, 0, row.picture);
       }
-      paste(picture_of(record, target, look), x, 0, row.picture);
+      paste(picture_of(record, *target, look), x, 0, row.picture);
       const Fragments& fragments = record.outcome.scene.fragments;
       if (const auto most = most_cracked(fragments)) {
         for (int detail = 1; detail < kRows; ++detail) {
           RecordPictureOptions close = look;
           close.wireframe = detail == 2;
-          paste(fracture_picture_of(fragments[*most], close), x, size * detail, row.picture);
+          paste(fracture_picture_of(fragments[*most], close), x, kSize * detail, row.picture);
         }
       }
       row.surfaces.push_back(surface_of(cell->label, fragments));
@@ -67,7 +69,7 @@ GalleryRow row_of(const std::filesystem::path& folder, const SheetRow& sheet,
       row.missing.push_back(fmt::format("{} cannot be drawn: {}", cell->label, error.what()));
       row.surfaces.push_back({.label = cell->label});
     }
-    x += size;
+    x += kSize;
   }
   return row;
 }
@@ -75,14 +77,11 @@ GalleryRow row_of(const std::filesystem::path& folder, const SheetRow& sheet,
 }  // namespace
 
 std::vector<GalleryRow> gallery_of(const std::filesystem::path& folder,
-                                   const std::vector<CellSummary>& cells,
-                                   const GalleryOptions& options) {
+                                   const std::vector<CellSummary>& cells) {
   const std::vector<SheetRow> sheets = sheet_rows(cells);
   const std::vector<std::string> columns = sheet_columns(cells, sheets);
   std::vector<GalleryRow> rows;
-  for (const SheetRow& sheet : sheets) {
-    rows.push_back(row_of(folder, sheet, columns, options.size));
-  }
+  for (const SheetRow& sheet : sheets) rows.push_back(row_of(folder, sheet, columns));
   return rows;
 }
 

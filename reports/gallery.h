@@ -29,14 +29,9 @@ struct GalleryRow {
   std::vector<std::string> missing;      ///< what cannot be drawn, and why
 };
 
-struct GalleryOptions {
-  int size = 320;  ///< of each picture in a row, px
-};
-
 /// Draws the collision of each shape that most methods broke it in (sheet_rows). `folder` is the
 /// results folder that the cells are from.
 std::vector<GalleryRow> gallery_of(const std::filesystem::path& folder,
-                                   const std::vector<CellSummary>& cells,
-                                   const GalleryOptions& options = {});
+                                   const std::vector<CellSummary>& cells);
 
 }  // namespace fracbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,8 @@ struct ReportInput {
   /// Of a suite that has a study instead of cells.
   std::optional<neural::RepresentationStudy> study = {};
   std::vector<ReferenceAgreement> agreements = {};  ///< of the cells with the reference method
-  std::vector<GalleryRow> gallery = {};             ///< pictures of some of the cells
+  /// Draws pictures of some of the cells; empty: there is nothing to draw.
+  std::function<std::vector<GalleryRow>()> gallery = {};
   /// Lines about where the results come from (program, machine, suite), shown under the title.
   std::vector<std::string> provenance = {};
   std::string suite = {};  ///< all its values, as JSON; empty: not known

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/measures.h"
+
 namespace fracbench {
 
 Fragments shown_fragments(const Record& record, const TriangleMesh& target) {
@@ -9,6 +11,14 @@ Fragments shown_fragments(const Record& record, const TriangleMesh& target) {
   if (!fragments.empty()) return fragments;
   return {{.mesh = target,
            .faces = std::vector<FragmentFace>(target.faces.size(), {.original_face = 0})}};
+}
+
+double fracture_area(const Fragment& fragment) {
+  double area = 0;
+  for (std::size_t f = 0; f < fragment.faces.size(); ++f) {
+    if (fragment.faces[f].is_fracture()) area += area_vector2(fragment.mesh, f).norm() / 2;
+  }
+  return area;
 }
 
 std::vector<double> ball_radii(const Record& record) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "app/command.h"
 #include "app/suite_arguments.h"
 #include "core/error.h"
+#include "harness/breakable_cache.h"
 #include "harness/cost_model.h"
 #include "harness/learning_plan.h"
 #include "harness/prepare_methods.h"
@@ -32,17 +32,11 @@ ExitCode say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
     text += fmt::format("learning data: {}\n", cost.describe());
   }
   if (!plan.methods.empty()) {
-    std::size_t bodies = 0;
-    for (const PlannedMethod& method : plan.methods) {
-      bodies += static_cast<std::size_t>(std::ranges::count_if(
-          plan.shapes, [&](const PlannedShape& shape) { return method.breaks(shape.label); }));
-    }
+    const std::size_t bodies = bodies_of(plan).size();
+    const std::vector<TrainingCost> training = measured_training_costs(plan, stop);
     json["bodies"] = bodies;
-    text += fmt::format("bodies to prepare: {}\n", bodies);
-    for (const TrainingCost& cost : measured_training_costs(plan, stop)) {
-      json["training"].push_back(cost.as_json());
-      text += fmt::format("training, where none is kept: {}\n", cost.describe());
-    }
+    add_training(training, json);
+    text += fmt::format("bodies to prepare: {}\n{}", bodies, training_lines(training));
   }
   if (a.as_json) {
     print_json(json);

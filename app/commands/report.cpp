@@ -51,12 +51,13 @@ std::vector<std::string> provenance_of(const Results& results) {
   return lines;
 }
 
+/// Draws from `results` and `folder`, which have to outlive it.
 ReportInput input_from(const Results& results, const std::filesystem::path& folder) {
   return {.title = results.suite.name,
           .cells = results.cells,
           .study = results.study,
           .agreements = agreement_with_reference(folder, results.cells),
-          .gallery = gallery_of(folder, results.cells),
+          .gallery = [&] { return gallery_of(folder, results.cells); },
           .provenance = provenance_of(results),
           .suite = results.suite.values.dump(),
           .bootstrap = {},

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -55,9 +54,7 @@ RunResult run_shown(const Plan& plan, const Catalog& catalog, const RunArguments
 
 /// Whether methods learn from what is not there yet.
 bool lacks_learning_data(const Plan& plan) {
-  const bool learns =
-      std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
-  return learns && !has_learning_data(plan, plan.learning_folder);
+  return learns(plan) && !has_learning_data(plan, plan.learning_folder);
 }
 
 /// What methods that learn need is made first; false: there is not enough of it.
@@ -66,15 +63,6 @@ bool make_what_is_learned(const Plan& plan, const Catalog& catalog, const RunArg
   if (!lacks_learning_data(plan)) return true;
   const LearningResult result = make_learning_data(plan.suite, catalog, arguments, stop);
   return exit_code_of(result) == ExitCode::good;
-}
-
-/// What the methods of a plan take to learn, a line each.
-std::string training_lines(const std::vector<TrainingCost>& costs) {
-  std::string text;
-  for (const TrainingCost& cost : costs) {
-    text += fmt::format("training, where none is kept: {}\n", cost.describe());
-  }
-  return text;
 }
 
 /// What a suite costs at another of its scales, which may need what is not here.
@@ -106,7 +94,7 @@ void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
   if (arguments.as_json) {
     auto json = cost.as_json();
     if (learning) json["learning"] = learning->as_json();
-    for (const TrainingCost& one : training) json["training"].push_back(one.as_json());
+    add_training(training, json);
     print_json(json);
     return;
   }

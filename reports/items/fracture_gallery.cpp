@@ -16,7 +16,9 @@ ReportItemInfo FractureGallery::info() const {
 
 ReportSection FractureGallery::render(const ReportInput& input) const {
   ReportSection section;
-  if (input.gallery.empty()) return section;
+  if (!input.gallery) return section;
+  const std::vector<GalleryRow> rows = input.gallery();
+  if (rows.empty()) return section;
   Table table{.name = "fracture_gallery",
               .title = "How finely these fracture surfaces are resolved",
               .notes = {"Both sides of every crack. A method without fragments left the body "
@@ -28,7 +30,7 @@ ReportSection FractureGallery::render(const ReportInput& input) const {
                           {"fracture faces"},
                           {"fracture area", "m^2"},
                           {"mean edge", "m"}}};
-  for (const GalleryRow& row : input.gallery) {
+  for (const GalleryRow& row : rows) {
     section.pictures.push_back(
         {.name = "fractures_" + file_name_part(row.shape),
          .title = fmt::format("{}: {}", row.shape, row.scenario),

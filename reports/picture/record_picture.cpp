@@ -17,6 +17,8 @@ namespace {
 const Vec3 kOriginal(0.56, 0.64, 0.71);
 const Vec3 kFracture(0.85, 0.51, 0.17);
 const Vec3 kArrow(0.75, 0.15, 0.15);
+/// The way to look where nothing says from where.
+const Vec3 kFromAbove(-0.5, -0.6, -0.45);
 
 std::vector<Vec3> face_colours(const Fragment& fragment, std::size_t number, bool by_surface) {
   std::vector<Vec3> colours;
@@ -59,7 +61,7 @@ const Impact* first_impact(const SceneResult& scene) {
 
 Vec3 way_to_look(const SceneResult& scene) {
   const Impact* impact = first_impact(scene);
-  Vec3 way(-0.5, -0.6, -0.45);
+  Vec3 way = kFromAbove;
   if (impact && !impact->impulses.empty()) way += impact->impulses.front().direction;
   return way.norm() > 1e-6 ? way : Vec3(-1, 0, 0);
 }
@@ -97,14 +99,6 @@ TriangleMesh arrow(const Vec3& direction, double length) {
     }
   }
   return mesh;
-}
-
-double fracture_area(const Fragment& fragment) {
-  double area = 0;
-  for (std::size_t f = 0; f < fragment.faces.size(); ++f) {
-    if (fragment.faces[f].is_fracture()) area += area_vector2(fragment.mesh, f).norm() / 2;
-  }
-  return area;
 }
 
 /// Outward, of the crack that takes most of the fragment's surface: a fragment amid others has
@@ -194,8 +188,8 @@ std::optional<std::size_t> most_cracked(const Fragments& fragments) {
 Picture fracture_picture_of(const Fragment& fragment, const RecordPictureOptions& options) {
   const Vec3 normal = largest_crack_normal(fragment);
   // From a little above and aside, so that steps in the surface have shades.
-  const Vec3 towards = normal.norm() > 0 ? Vec3(-normal.normalized() + Vec3(0.15, 0.15, -0.15))
-                                         : Vec3(-0.5, -0.6, -0.45);
+  const Vec3 towards =
+      normal.norm() > 0 ? Vec3(-normal.normalized() + Vec3(0.15, 0.15, -0.15)) : kFromAbove;
   const View view{.centre = bounding_box(fragment.mesh).center(),
                   .towards = towards,
                   .radius = reach_of(fragment.mesh),
