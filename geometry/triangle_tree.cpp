@@ -111,6 +111,7 @@ struct TriangleTree::Builder {
   };
   std::vector<Item> items;    ///< the faces, in the order of the tree
   std::vector<Vec3> corners;  ///< three of each face, in the frame of the boxes
+  std::vector<Vec3> points;   ///< corners of the part at hand
   std::vector<Node>& nodes;
   std::vector<TurnedBoxes>& turned;
 
@@ -128,13 +129,12 @@ struct TriangleTree::Builder {
   /// Large parts of a surface are not flat: a box that is turned to fit them gains nothing.
   static constexpr std::size_t kMostFitted = 16;
 
-  TurnedBox turned_box_of(const Part& part, const Box& upright_box) const {
+  TurnedBox turned_box_of(const Part& part, const Box& upright_box) {
     if (part.size() > kMostFitted) {
       return {.low = upright_box.low.matrix().cast<double>(),
               .high = upright_box.high.matrix().cast<double>()};
     }
-    std::vector<Vec3> points;
-    points.reserve(3 * part.size());
+    points.clear();
     for (std::size_t i = part.begin; i < part.end; ++i) {
       const auto first = corners.begin() + 3 * static_cast<std::ptrdiff_t>(items[i].face);
       points.insert(points.end(), first, first + 3);
@@ -196,8 +196,8 @@ struct TriangleTree::Builder {
         }
       }
       if (best_bin > 0) {
-        const auto middle = std::stable_partition(
-            begin, end, [&](const Item& item) { return bin_of(item) < best_bin; });
+        const auto middle =
+            std::partition(begin, end, [&](const Item& item) { return bin_of(item) < best_bin; });
         return static_cast<std::size_t>(middle - items.begin());
       }
     }
@@ -273,7 +273,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   const double half = (high - low).maxCoeff() / 2;
   scale_ = half > 0 && std::isfinite(1 / half) ? 1 / half : 1;
 
-  Builder builder{std::vector<Builder::Item>(count), {}, nodes_, turned_};
+  Builder builder{std::vector<Builder::Item>(count), {}, {}, nodes_, turned_};
   builder.corners.reserve(3 * count);
   for (std::size_t f = 0; f < count; ++f) {
     builder.items[f].face = static_cast<std::int32_t>(f);
