@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -273,18 +274,25 @@ class Training {
     network_->end_statistics(samples_.size());
   }
 
-  /// Equation (7): pairs of impulse code and segment code, sampled without replacement.
+  /// Equation (7): pairs of impulse code and segment code, sampled without replacement; as many of
+  /// each shape, whose rows alone are asked for its fractures.
   void fill_codebook(Model& model) {
     Random random(derive_seed(options_.seed, {"codebook", std::to_string(epochs_.size())}));
     Random codes = random.fork("codes");
-    const std::size_t all = data_.patterns.size();
-    const std::size_t wanted =
-        options_.codebook_rows == 0 ? all : std::min<std::size_t>(options_.codebook_rows, all);
-    std::vector<std::size_t> chosen(all);
-    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-    for (std::size_t k = 0; k < wanted; ++k)
-      std::swap(chosen[k], chosen[k + random.below(all - k)]);
-    chosen.resize(wanted);
+    std::map<int, std::vector<std::size_t>> of_shape;
+    for (std::size_t k = 0; k < data_.patterns.size(); ++k) {
+      of_shape[data_.patterns[k].shape].push_back(k);
+    }
+    std::vector<std::size_t> chosen;
+    for (auto& [shape, patterns] : of_shape) {
+      const std::size_t all = patterns.size();
+      const std::size_t wanted =
+          options_.codebook_rows == 0 ? all : std::min<std::size_t>(options_.codebook_rows, all);
+      for (std::size_t k = 0; k < wanted; ++k) {
+        std::swap(patterns[k], patterns[k + random.below(all - k)]);
+        chosen.push_back(patterns[k]);
+      }
+    }
     std::ranges::sort(chosen);
     for (const std::size_t k : chosen) {
       const std::vector<float> row = values_of(code_of(k, codes));

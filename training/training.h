@@ -34,7 +34,7 @@ struct TrainingOptions {
   double learning_rate = 0.003;
   int later_from = 400;        ///< epoch from which on the later rate holds
   double later_rate = 0.0005;  ///< (the supplement says 0.00005)
-  int codebook_rows = 0;       ///< N_space; 0: one for each pattern
+  int codebook_rows = 0;       ///< N_space, of each shape; 0: one for each pattern
   Loss loss = Loss::l2;
   SegmentCodes segment_codes = SegmentCodes::trained;
   double stable_loss = 0;  ///< stop after an epoch with a lower loss; 0: never

@@ -314,6 +314,21 @@ TEST(Training, FillsTheCodebookWithPairsOfTheTrainingSet) {
   }
 }
 
+TEST(Training, LeavesNoShapeWithoutRows) {
+  DataSet data = test::made_up_data(6, {32});
+  data.shapes.push_back(data.shapes.front());
+  data.shapes.back().name = "another";
+  data.shapes.back().digest = "another";
+  data.patterns.back().shape = 1;
+  TrainingOptions options = small(1);
+  for (const int rows : {1, 2}) {
+    options.codebook_rows = rows;
+    const Model model = train(data, options, {});
+    EXPECT_EQ(std::ranges::count(model.codebook_shape, 0), rows);
+    EXPECT_EQ(std::ranges::count(model.codebook_shape, 1), 1) << "it has no more patterns";
+  }
+}
+
 TEST(Training, RefusesWhatDoesNotFit) {
   const DataSet data = test::made_up_data(2, {32});
   TrainingOptions options = small(1);
