@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "core/array_file.h"
 #include "core/error.h"
@@ -23,16 +24,6 @@ constexpr int kMostSide = 4096, kMostPatterns = 1'000'000;
 
 std::string name_of(Representation representation, std::string_view what) {
   return fmt::format("{}/{}", to_string(representation), what);
-}
-
-Json to_json(const StudySettings& s) {
-  return {{"side", s.side},
-          {"patterns", s.patterns},
-          {"least_sites", s.least_sites},
-          {"most_sites", s.most_sites},
-          {"epochs", s.epochs},
-          {"learning_rate", s.learning_rate},
-          {"seed", s.seed}};
 }
 
 StudySettings settings_from(const Json& json) {
@@ -100,6 +91,16 @@ std::string_view to_string(Representation value) {
   return "";
 }
 
+nlohmann::ordered_json to_json(const StudySettings& s) {
+  return {{"side", s.side},
+          {"patterns", s.patterns},
+          {"least_sites", s.least_sites},
+          {"most_sites", s.most_sites},
+          {"epochs", s.epochs},
+          {"learning_rate", s.learning_rate},
+          {"seed", s.seed}};
+}
+
 void write_representation_study(const std::filesystem::path& file,
                                 const RepresentationStudy& study) {
   ArrayFile arrays;
@@ -116,6 +117,19 @@ void write_representation_study(const std::filesystem::path& file,
     arrays.integers[named("back")] = outcome.back;
   }
   write_array_file(file, arrays, kKind);
+}
+
+std::filesystem::path study_checkpoints(const std::filesystem::path& file) {
+  return file.string() + ".checkpoints";
+}
+
+void remove_study_checkpoints(const std::filesystem::path& file) {
+  const std::filesystem::path folder = study_checkpoints(file);
+  std::error_code ignored;
+  for (const Representation r : kRepresentations) {
+    std::filesystem::remove_all(folder / to_string(r), ignored);
+  }
+  std::filesystem::remove(folder, ignored);  // unless it holds what is not ours
 }
 
 RepresentationStudy read_representation_study(const std::filesystem::path& file) {

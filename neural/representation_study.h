@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,8 @@ struct StudySettings {
   bool operator==(const StudySettings&) const = default;
 };
 
+nlohmann::ordered_json to_json(const StudySettings& settings);
+
 /// How well one representation was learned. Lists by pattern, images one after the other.
 struct StudyOutcome {
   Representation representation = Representation::labels;
@@ -59,6 +62,11 @@ struct RepresentationStudy {
 /// One file (core/array_file.h, packed). Throws InputError.
 void write_representation_study(const std::filesystem::path& file,
                                 const RepresentationStudy& study);
+
+/// The folder of the check points that outlive an interruption of the study that makes this file.
+std::filesystem::path study_checkpoints(const std::filesystem::path& file);
+/// Removes it, with whatever killed processes left in it.
+void remove_study_checkpoints(const std::filesystem::path& file);
 
 /// Throws InputError where the file cannot be read, is damaged, or its numbers do not fit together.
 RepresentationStudy read_representation_study(const std::filesystem::path& file);

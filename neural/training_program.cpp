@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBadInput = 2;
 
-/// "epoch 12 200 0.00123 35.5" or "seconds 35.5".
+/// "epoch 12 200 0.00123 35.5", "seconds 35.5" or "message ...".
 void tell(std::string_view line, const TrainingWatch& watch) {
   std::istringstream words{std::string(line)};
   std::string word;
@@ -27,6 +27,10 @@ void tell(std::string_view line, const TrainingWatch& watch) {
   }
   double seconds = 0;
   if (word == "seconds" && watch.on_seconds && words >> seconds) watch.on_seconds(seconds);
+  if (word == "message" && watch.on_message && words.get() == ' ') {
+    std::getline(words, word);
+    watch.on_message(word);
+  }
 }
 
 }  // namespace

@@ -17,8 +17,10 @@ struct TrainingWatch {
   std::stop_token stop = {};
   /// Told of each epoch: how much of the training is done, in [0, 1], and the epoch's loss.
   std::function<void(double fraction, double loss)> on_epoch = {};
-  /// Told of the seconds that the command 'time' says.
+  /// Told of the seconds that the program says when it is asked for the time.
   std::function<void(double seconds)> on_seconds = {};
+  /// Told what the program has to say on the way, such as of a check point that is damaged.
+  std::function<void(std::string_view text)> on_message = {};
 };
 
 /// Calls it with these arguments and those that make it tell of each epoch; it ends with this call,

@@ -35,9 +35,10 @@ using Clock = std::chrono::steady_clock;
 
 enum Exit { kGood = 0, kInternal = 1, kBadInput = 2, kNotDone = 4 };
 
+constexpr const char* kProgram = "fracbench-train:";
 constexpr const char* kAbout =
     "Trains the network of fracbench's method deepfracture from a data set file.\n"
-    "An interrupted training goes on where it was when the same command is given again.\n";
+    "An interrupted training or study goes on where it was when the same command is given again.\n";
 
 struct Arguments {
   std::vector<std::string> data;
@@ -236,6 +237,7 @@ struct StudyArguments {
   neural::StudySettings settings;
   int threads = 1;
   bool lines = false;
+  bool only_time = false;
 };
 
 void print_study(const neural::RepresentationStudy& result) {
@@ -250,17 +252,50 @@ void print_study(const neural::RepresentationStudy& result) {
   }
 }
 
+/// Seconds that are left after each epoch, of which the first may come late, where a study goes on.
+class TimeLeft {
+ public:
+  explicit TimeLeft(int epochs) : epochs_(epochs) {}
+  double operator()(int epoch) {
+    if (before_ < 0) before_ = epoch - 1;
+    const std::chrono::duration<double> elapsed = Clock::now() - start_;
+    return elapsed.count() * (epochs_ - epoch) / (epoch - before_);
+  }
+
+ private:
+  int epochs_, before_ = -1;
+  Clock::time_point start_ = Clock::now();
+};
+
+void say_time(const StudyArguments& a, double seconds) {
+  if (a.lines) {
+    fmt::print("seconds {:.9g}\n", seconds);
+  } else {
+    fmt::print("what there is to do takes {} (hours:minutes:seconds)\n", duration(seconds));
+  }
+}
+
 int study(const StudyArguments& a, std::stop_token stop) {
   const int epochs = static_cast<int>(neural::kRepresentations.size()) * a.settings.epochs;
   Shown shown(a.lines, epochs);
-  const Clock::time_point start = Clock::now();
-  const auto progress = [&](int epoch, double loss) {
-    const std::chrono::duration<double> elapsed = Clock::now() - start;
-    shown(epoch, loss, elapsed.count() * (epochs - epoch) / epoch);
-  };
-  const neural::RepresentationStudy result = training::study_representations(
-      a.settings, {.threads = a.threads, .stop = stop, .progress = progress});
+  TimeLeft left(epochs);
+  const training::StudyRun run{
+      .threads = a.threads,
+      .checkpoints = neural::study_checkpoints(a.out),
+      .stop = stop,
+      .progress = [&](int epoch, double loss) { shown(epoch, loss, left(epoch)); },
+      .message =
+          [&](std::string_view text) {
+            fmt::print(a.lines ? stdout : stderr, "{} {}\n", a.lines ? "message" : kProgram, text);
+            std::fflush(stdout);
+          }};
+  if (a.only_time) {
+    say_time(a, training::study_seconds(a.settings, run));
+    return kGood;
+  }
+  const neural::RepresentationStudy result = training::study_representations(a.settings, run);
   neural::write_representation_study(a.out, result);
+  neural::remove_study_checkpoints(a.out);
   if (!a.lines) print_study(result);
   return kGood;
 }
@@ -309,8 +344,14 @@ int run_program(int argc, char** argv, std::stop_token stop) {
 
   StudyArguments two;
   auto* study_command = app.add_subcommand(
-      "study-2d", "Learns 2D Voronoi diagrams as labels, lines and distances, and prints how well");
-  study_command->add_option("--out", two.out, "The study's file, for fracbench report")->required();
+      "study-2d",
+      "Learns 2D Voronoi diagrams as labels, lines and distances, and prints how well; goes on "
+      "where it was stopped");
+  study_command
+      ->add_option("--out", two.out,
+                   "The study's file, for fracbench report; check points are in OUT.checkpoints "
+                   "until it is done")
+      ->required();
   const auto number = [&](const char* name, auto& value, const char* text) {
     study_command->add_option(name, value, text)->capture_default_str();
   };
@@ -323,6 +364,9 @@ int run_program(int argc, char** argv, std::stop_token stop) {
   number("--seed", two.settings.seed, "");
   number("--threads", two.threads, "Of the processor");
   study_command->add_flag("--progress-lines", two.lines, "As for train");
+  study_command->add_flag("--time", two.only_time,
+                          "Only says how long it would take to make what check points do not hold, "
+                          "from some steps");
   study_command->callback([&] { chosen = [&] { return study(two, stop); }; });
 
   try {
@@ -339,13 +383,13 @@ int main(int argc, char** argv) {
   neural::use_fitting_blas_kernels(argv);
   const Interrupt interrupt;
   const auto fail = [](const char* what, int code) {
-    fmt::print(stderr, "fracbench-train: {}\n", what);
+    fmt::print(stderr, "{} {}\n", kProgram, what);
     return code;
   };
   try {
     return run_program(argc, argv, interrupt.token());
   } catch (const Cancelled&) {
-    return fail("stopped; the same command goes on from the last epoch", kNotDone);
+    return fail("stopped; the same command goes on from the last check point", kNotDone);
   } catch (const InputError& error) {
     return fail(error.what(), kBadInput);
   } catch (const training::TrainingFailure& error) {

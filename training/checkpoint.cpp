@@ -1,9 +1,11 @@
 #include "training/checkpoint.h"
 
 #include <fmt/format.h>
+#include <torch/torch.h>
 
 #include "core/array_file.h"
 #include "core/error.h"
+#include "training/network.h"
 
 namespace fracbench::training {
 
@@ -11,11 +13,11 @@ namespace {
 
 constexpr ArrayFileKind kKind{.format = "fracbench checkpoint", .version = 1};
 
-std::filesystem::path file_in(const std::filesystem::path& folder) {
+}  // namespace
+
+std::filesystem::path checkpoint_file(const std::filesystem::path& folder) {
   return folder / "training.checkpoint";
 }
-
-}  // namespace
 
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& state) {
   ArrayFile file;
@@ -26,29 +28,44 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& sta
     file.reals["epoch_seconds"].push_back(epoch.seconds);
   }
   file.floats = state.arrays;
-  write_array_file(file_in(folder), file, kKind);
+  write_array_file(checkpoint_file(folder), file, kKind);
 }
 
-std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder,
-                                          const std::string& training) {
-  const std::filesystem::path path = file_in(folder);
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder) {
+  const std::filesystem::path path = checkpoint_file(folder);
   if (!std::filesystem::exists(path)) return std::nullopt;
   ArrayFile file = read_array_file(path, kKind);
-  if (file.texts["training"] != training) {
-    throw InputError(
-        fmt::format("'{}' is of a training with other data or options; give another folder, or "
-                    "remove it to begin anew",
-                    path.string()));
-  }
-  Checkpoint state{.training = training, .epochs = {}, .arrays = std::move(file.floats)};
+  Checkpoint state{
+      .training = file.texts["training"], .epochs = {}, .arrays = std::move(file.floats)};
   const std::vector<double>& loss = file.reals["epoch_loss"];
   const std::vector<double>& seconds = file.reals["epoch_seconds"];
   if (file.reals["steps"].size() != 1 || loss.size() != seconds.size()) {
-    throw InputError(fmt::format("'{}' is damaged; remove it to begin anew", path.string()));
+    throw InputError(fmt::format("'{}' is damaged", path.string()));
   }
   state.steps = static_cast<std::int64_t>(file.reals["steps"][0]);
   for (std::size_t k = 0; k < loss.size(); ++k) state.epochs.push_back({loss[k], seconds[k]});
   return state;
+}
+
+std::map<std::string, std::vector<float>> arrays_of(
+    const std::map<std::string, torch::Tensor>& tensors) {
+  std::map<std::string, std::vector<float>> arrays;
+  for (const auto& [name, tensor] : tensors) arrays[name] = values_of(tensor);
+  return arrays;
+}
+
+void put_arrays(const Checkpoint& state, std::map<std::string, torch::Tensor> tensors) {
+  for (const auto& [name, tensor] : tensors) {
+    const auto found = state.arrays.find(name);
+    if (found == state.arrays.end() ||
+        found->second.size() != static_cast<std::size_t>(tensor.numel())) {
+      throw InputError(fmt::format("the check point has no fitting '{}'", name));
+    }
+  }
+  const torch::NoGradGuard none;
+  for (auto& [name, tensor] : tensors) {
+    tensor.copy_(tensor_of(state.arrays.at(name), tensor.sizes()));
+  }
 }
 
 }  // namespace fracbench::training

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <torch/types.h>
+
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -23,8 +25,19 @@ struct Checkpoint {
 /// Replaces the check point of a folder; it is there whole at any moment. Throws InputError.
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& state);
 
-/// None where the folder has none. Throws InputError where it is damaged or of another training.
-std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder,
-                                          const std::string& training);
+/// None where the folder has none. Throws InputError where it is damaged; of which training it is
+/// is for the caller to look at.
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder);
+
+/// The file in a folder.
+std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
+
+/// The numbers of tensors, as a check point has them.
+std::map<std::string, std::vector<float>> arrays_of(
+    const std::map<std::string, torch::Tensor>& tensors);
+
+/// Gives tensors, on any device, the numbers that a check point has for them. Throws InputError,
+/// before anything is changed, where one is missing or of another size.
+void put_arrays(const Checkpoint& state, std::map<std::string, torch::Tensor> tensors);
 
 }  // namespace fracbench::training

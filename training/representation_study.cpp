@@ -5,175 +5,44 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <deque>
+#include <filesystem>
 #include <iterator>
-#include <map>
-#include <numeric>
-#include <set>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 
 #include "core/adjusted_rand_index.h"
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "training/adam.h"
+#include "training/checkpoint.h"
+#include "training/divided_image.h"
 #include "training/network.h"
 
 namespace fracbench::training {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+using neural::EpochRecord;
 using neural::Representation;
 using neural::StudyOutcome;
 using neural::StudySettings;
-using Labels = std::vector<std::int32_t>;
 
 constexpr int kCode = 32, kBase = 8, kChannels = 64;
 constexpr double kSlope = 0.2, kEpsilon = 1e-5;
-// Distances are learned in units of this many pixels, and truncated there.
-constexpr double kUnit = 16;
-// From where on a pixel belongs to a line.
-constexpr float kLine = 0.5f;
-// How much higher than the pass between them both of two summits of a distance have to be, to be
-// two regions.
-constexpr float kDepth = static_cast<float>(1.0 / kUnit);
+// Part of what a check point is of; to be changed with anything that changes what is learned.
+constexpr std::string_view kAlgorithm = "representation study 1";
+// A check point is written once the training since the last one took this many times as long as
+// writing that did: check points take 5 % of the time, on a slow disk, too.
+constexpr int kTrainingPerCheckPoint = 20;
 
-/// Regions 0 to n - 1, in random order.
-Labels voronoi(const StudySettings& o, Random& random) {
-  const int count =
-      o.least_sites +
-      static_cast<int>(random.below(static_cast<std::uint64_t>(o.most_sites - o.least_sites + 1)));
-  std::vector<std::pair<double, double>> sites;
-  for (int n = 0; n < count; ++n) {
-    const double x = random.uniform(0, o.side), y = random.uniform(0, o.side);
-    sites.emplace_back(x, y);
-  }
-  Labels labels;
-  for (int y = 0; y < o.side; ++y) {
-    for (int x = 0; x < o.side; ++x) {
-      const auto square = [&](const auto& site) {
-        return std::pow(site.first - x, 2) + std::pow(site.second - y, 2);
-      };
-      labels.push_back(
-          static_cast<std::int32_t>(std::ranges::min_element(sites, {}, square) - sites.begin()));
-    }
-  }
-  return labels;
-}
-
-template <typename Visit>
-void for_neighbours(int pixel, int side, const Visit& visit) {
-  const int x = pixel % side, y = pixel / side;
-  if (x > 0) visit(pixel - 1);
-  if (x + 1 < side) visit(pixel + 1);
-  if (y > 0) visit(pixel - side);
-  if (y + 1 < side) visit(pixel + side);
-}
-
-std::vector<float> image_of(const Labels& labels, Representation representation, int side) {
-  const auto count = static_cast<float>(1 + *std::ranges::max_element(labels));
-  std::vector<float> image(labels.size());
-  std::vector<int> border;
-  for (int p = 0; p < static_cast<int>(labels.size()); ++p) {
-    bool at_border = false;
-    for_neighbours(p, side, [&](int q) { at_border |= labels[q] != labels[p]; });
-    if (at_border) border.push_back(p);
-    image[p] = representation == Representation::labels ? (labels[p] + 1.0f) / count
-                                                        : (at_border ? 1.0f : 0.0f);
-  }
-  if (representation != Representation::distance) return image;
-  for (int p = 0; p < static_cast<int>(labels.size()); ++p) {
-    double least = 4.0 * side * side;
-    for (const int q : border) {
-      least = std::min(least, std::pow(p % side - q % side, 2) + std::pow(p / side - q / side, 2));
-    }
-    image[p] = static_cast<float>(std::min(1.0, std::sqrt(least) / kUnit));
-  }
-  return image;
-}
-
-/// Gives pixels without a region (-1) that of the nearest one that has.
-Labels filled(Labels labels, int side) {
-  std::deque<int> queue;
-  for (int p = 0; p < static_cast<int>(labels.size()); ++p) {
-    if (labels[p] >= 0) queue.push_back(p);
-  }
-  while (!queue.empty()) {
-    const int p = queue.front();
-    queue.pop_front();
-    for_neighbours(p, side, [&](int q) {
-      if (labels[q] >= 0) return;
-      labels[q] = labels[p];
-      queue.push_back(q);
-    });
-  }
-  return labels;
-}
-
-/// The basins of a distance, as caged-SDF segmentation finds them in 3D: pixels from the highest
-/// down join the region that they touch; where two regions meet, they become one if either rises
-/// less than kDepth above the meeting place.
-Labels basins_of(const std::vector<float>& image, int side) {
-  std::vector<int> order(image.size()), parent(image.size(), -1);
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](int p) { return image[p]; });
-  const auto root = [&](int p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
-  std::vector<int> summit(image.size());
-  for (const int p : order) {
-    if (image[p] < kDepth / 2) break;  // borders: flat, to be filled from both sides
-    parent[p] = p;
-    summit[p] = p;
-    for_neighbours(p, side, [&](int q) {
-      if (parent[q] < 0) return;
-      const int a = root(p), b = root(q);
-      if (a == b) return;
-      const int lower = image[summit[a]] < image[summit[b]] ? a : b, higher = lower == a ? b : a;
-      // The pixel itself, while it has no region yet, always joins.
-      if (summit[lower] != p && image[summit[lower]] - image[p] >= kDepth) return;
-      parent[lower] = higher;
-    });
-  }
-  Labels labels;
-  for (int p = 0; p < static_cast<int>(image.size()); ++p) {
-    labels.push_back(parent[p] < 0 ? -1 : root(p));
-  }
-  return filled(std::move(labels), side);
-}
-
-/// Regions that an image stands for: by value, what is connected away from lines (whose pixels join
-/// the nearest region), or the basins of a distance.
-Labels regions_of(const std::vector<float>& image, Representation representation, int side,
-                  int count) {
-  Labels labels(image.size(), -1);
-  if (representation == Representation::labels) {
-    for (std::size_t p = 0; p < image.size(); ++p) {
-      labels[p] = static_cast<std::int32_t>(std::lround(image[p] * static_cast<float>(count)));
-    }
-    return labels;
-  }
-  if (representation == Representation::distance) return basins_of(image, side);
-  const auto inside = [&](int p) { return image[p] < kLine; };
-  std::deque<int> queue;
-  std::int32_t next = 0;
-  for (int seed = 0; seed < static_cast<int>(image.size()); ++seed) {
-    if (labels[seed] >= 0 || !inside(seed)) continue;
-    labels[seed] = next;
-    queue.push_back(seed);
-    while (!queue.empty()) {
-      const int p = queue.front();
-      queue.pop_front();
-      for_neighbours(p, side, [&](int q) {
-        if (labels[q] >= 0 || !inside(q)) return;
-        labels[q] = next;
-        queue.push_back(q);
-      });
-    }
-    ++next;
-  }
-  return filled(std::move(labels), side);
+void stop_if_asked(const StudyRun& run) {
+  if (run.stop.stop_requested()) throw Cancelled();
 }
 
 /// A decoder of images from a trainable code for each pattern.
@@ -232,64 +101,151 @@ torch::Tensor loss_of(const torch::Tensor& image, const torch::Tensor& target,
   return 1 - 2 * (image * target).sum() / (image.square().sum() + target.square().sum());
 }
 
-/// The regions called 0, 1, 2, ... in the order in which they appear.
-Labels in_order(const Labels& labels) {
-  std::map<std::int32_t, std::int32_t> names;
-  Labels renamed;
-  for (const std::int32_t label : labels) {
-    renamed.push_back(
-        names.try_emplace(label, static_cast<std::int32_t>(names.size())).first->second);
+/// The training of one representation: everything that changes in it.
+class ImageTraining {
+ public:
+  /// Goes on from the check point that there is.
+  ImageTraining(Representation representation, const StudySettings& settings, const StudyRun& run)
+      : representation_(representation),
+        settings_(settings),
+        run_(run),
+        network_(initial_network(representation, settings)),
+        adam_(network_.weights()) {
+    if (!run.checkpoints.empty()) restore();
   }
-  return renamed;
-}
 
-double count_of(const Labels& labels) {
-  return static_cast<double>(std::set(labels.begin(), labels.end()).size());
-}
+  Representation representation() const { return representation_; }
+  int epochs_left() const { return settings_.epochs - static_cast<int>(epochs_.size()); }
 
-/// Learns the targets by heart; returns the mean loss of each epoch.
-std::vector<double> learn(ImageNetwork& network, const std::vector<torch::Tensor>& targets,
-                          Representation representation, const StudySettings& s,
-                          const StudyRun& run) {
-  Adam adam(network.weights());
-  std::vector<double> losses;
-  for (int epoch = 0; epoch < s.epochs; ++epoch) {
+  /// Learns the targets by heart.
+  void learn(const std::vector<torch::Tensor>& targets) {
+    while (epochs_left() > 0) {
+      const auto start = Clock::now();
+      EpochRecord epoch{.loss = one_epoch(targets), .seconds = 0};
+      epoch.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      epochs_.push_back(epoch);
+      if (!run_.checkpoints.empty()) keep();
+      if (run_.progress) {
+        run_.progress((1 + static_cast<int>(representation_)) * settings_.epochs - epochs_left(),
+                      epoch.loss);
+      }
+    }
+  }
+
+  std::vector<double> losses() const {
+    std::vector<double> list;
+    for (const EpochRecord& epoch : epochs_) list.push_back(epoch.loss);
+    return list;
+  }
+
+  std::vector<float> decode(std::size_t pattern) {
+    const torch::NoGradGuard none;
+    return values_of(network_.decode(static_cast<std::int64_t>(pattern)));
+  }
+
+ private:
+  static ImageNetwork initial_network(Representation representation, const StudySettings& s) {
+    Random random = Random(s.seed).fork(to_string(representation));
+    return {s, random};
+  }
+
+  /// The mean loss.
+  double one_epoch(const std::vector<torch::Tensor>& targets) {
+    const bool late = static_cast<int>(epochs_.size()) >= 2 * settings_.epochs / 3;
     double sum = 0;
     for (std::size_t k = 0; k < targets.size(); ++k) {
-      if (run.stop.stop_requested()) throw Cancelled();
+      stop_if_asked(run_);
       const torch::Tensor loss =
-          loss_of(network.decode(static_cast<std::int64_t>(k)), targets[k], representation);
+          loss_of(network_.decode(static_cast<std::int64_t>(k)), targets[k], representation_);
       sum += loss.item<double>();
       loss.backward();
-      adam.step(epoch < 2 * s.epochs / 3 ? s.learning_rate : s.learning_rate / 6);
+      adam_.step(late ? settings_.learning_rate / 6 : settings_.learning_rate);
     }
-    losses.push_back(sum / static_cast<double>(targets.size()));
-    if (run.progress) {
-      run.progress(static_cast<int>(representation) * s.epochs + epoch + 1, losses.back());
+    return sum / static_cast<double>(targets.size());
+  }
+
+  std::filesystem::path folder() const { return run_.checkpoints / to_string(representation_); }
+
+  /// Digest of all that determines the weights after so many epochs.
+  std::string id() const {
+    Digest digest;
+    digest.add(kAlgorithm);
+    digest.add(to_json(settings_).dump());
+    digest.add(to_string(representation_));
+    digest.add(static_cast<std::uint64_t>(run_.threads));
+    digest.add(std::string_view(TORCH_VERSION));
+    return digest.hex();
+  }
+
+  /// All tensors that change, by their name in a check point.
+  TensorMap tensors() {
+    TensorMap list;
+    for (auto& [name, tensor] : network_.weights()) list["weights/" + name] = tensor;
+    for (auto& [name, tensor] : adam_.first) list["first/" + name] = tensor;
+    for (auto& [name, tensor] : adam_.second) list["second/" + name] = tensor;
+    return list;
+  }
+
+  void restore() {
+    try {
+      const auto state = read_checkpoint(folder());
+      if (!state) return;
+      if (state->training != id() || static_cast<int>(state->epochs.size()) > settings_.epochs) {
+        throw InputError(
+            fmt::format("'{}' is of other settings", checkpoint_file(folder()).string()));
+      }
+      put_arrays(*state, tensors());
+      adam_.steps = state->steps;
+      epochs_ = state->epochs;
+    } catch (const InputError& error) {
+      if (run_.message) {
+        run_.message(fmt::format("{}; {} begin anew", error.what(), to_string(representation_)));
+      }
     }
   }
-  return losses;
-}
 
-StudyOutcome study(const std::vector<Labels>& truth, Representation representation,
+  /// Writes a check point, unless the last one was just now.
+  void keep() {
+    const auto start = Clock::now();
+    if (start < next_check_point_ && epochs_left() > 0) return;
+    std::error_code ignored;  // the file that cannot be written tells of it
+    std::filesystem::create_directories(folder(), ignored);
+    write_checkpoint(folder(), {.training = id(),
+                                .steps = adam_.steps,
+                                .epochs = epochs_,
+                                .arrays = arrays_of(tensors())});
+    const auto end = Clock::now();
+    next_check_point_ = end + kTrainingPerCheckPoint * (end - start);
+  }
+
+  Representation representation_;
+  const StudySettings& settings_;
+  const StudyRun& run_;
+  ImageNetwork network_;
+  Adam adam_;
+  std::vector<EpochRecord> epochs_;
+  Clock::time_point next_check_point_ = {};
+};
+
+StudyOutcome study(const std::vector<Labels>& truth, ImageTraining& training,
                    const StudySettings& s, const StudyRun& run) {
-  Random random = Random(s.seed).fork(to_string(representation));
-  ImageNetwork network(s, random);
+  const Representation representation = training.representation();
   StudyOutcome outcome{.representation = representation};
   std::vector<torch::Tensor> targets;
   for (const Labels& labels : truth) {
+    stop_if_asked(run);
     const std::vector<float> image = image_of(labels, representation, s.side);
     targets.push_back(tensor_of(image, {static_cast<std::int64_t>(image.size())}));
     std::ranges::copy(image, std::back_inserter(outcome.targets));
   }
-  outcome.loss = learn(network, targets, representation, s, run);
-  const torch::NoGradGuard none;
+  training.learn(targets);
+  outcome.loss = training.losses();
   for (std::size_t k = 0; k < truth.size(); ++k) {
+    stop_if_asked(run);
     const int count = 1 + *std::ranges::max_element(truth[k]);
-    const std::vector<float> image = values_of(network.decode(static_cast<std::int64_t>(k)));
+    const std::vector<float> image = training.decode(k);
     const Labels back = regions_of(image, representation, s.side, count);
-    const Labels exact =
-        regions_of(image_of(truth[k], representation, s.side), representation, s.side, count);
+    const Labels exact = regions_of(values_of(targets[k]), representation, s.side, count);
     outcome.agreement.push_back(adjusted_rand_index(truth[k], back));
     outcome.ceiling.push_back(adjusted_rand_index(truth[k], exact));
     outcome.regions.push_back(count_of(back));
@@ -314,23 +270,44 @@ void check(const StudySettings& s) {
           fmt::format("learning rate must be positive, not {}", s.learning_rate));
 }
 
+/// Of all representations; what is damaged in the check points is told of before anything is
+/// learned.
+std::deque<ImageTraining> make_trainings(const StudySettings& settings, const StudyRun& run) {
+  std::deque<ImageTraining> list;
+  for (const Representation representation : neural::kRepresentations) {
+    list.emplace_back(representation, settings, run);
+  }
+  return list;
+}
+
 }  // namespace
 
 neural::RepresentationStudy study_representations(const StudySettings& settings,
                                                   const StudyRun& run) {
   check(settings);
   torch::set_num_threads(std::max(1, run.threads));
+  std::deque<ImageTraining> trainings = make_trainings(settings, run);
   Random random(settings.seed);
   std::vector<Labels> truth;
   neural::RepresentationStudy result{.settings = settings, .true_regions = {}, .outcomes = {}};
   for (int n = 0; n < settings.patterns; ++n) {
+    stop_if_asked(run);
     truth.push_back(voronoi(settings, random));
     result.true_regions.push_back(count_of(truth.back()));
   }
-  for (const Representation representation : neural::kRepresentations) {
-    result.outcomes.push_back(study(truth, representation, settings, run));
+  for (ImageTraining& training : trainings) {
+    result.outcomes.push_back(study(truth, training, settings, run));
   }
   return result;
+}
+
+std::vector<int> study_epochs_left(const StudySettings& settings, const StudyRun& run) {
+  check(settings);
+  std::vector<int> left;
+  for (const ImageTraining& training : make_trainings(settings, run)) {
+    left.push_back(training.epochs_left());
+  }
+  return left;
 }
 
 }  // namespace fracbench::training

@@ -239,27 +239,26 @@ class Training {
   }
 
   Checkpoint state() {
-    Checkpoint state{.training = id_, .steps = adam_.steps, .epochs = epochs_, .arrays = {}};
-    for (const auto& [name, tensor] : tensors()) state.arrays[name] = values_of(tensor);
-    return state;
+    return {
+        .training = id_, .steps = adam_.steps, .epochs = epochs_, .arrays = arrays_of(tensors())};
   }
 
   void restore() {
     if (run_.checkpoints.empty()) return;
-    const auto state = read_checkpoint(run_.checkpoints, id_);
-    if (!state) return;
-    const torch::NoGradGuard none;
-    for (auto& [name, tensor] : tensors()) {
-      const auto found = state->arrays.find(name);
-      if (found == state->arrays.end() ||
-          found->second.size() != static_cast<std::size_t>(tensor.numel())) {
-        throw InputError(fmt::format("the check point in '{}' has no fitting '{}'; remove it",
-                                     run_.checkpoints.string(), name));
+    try {
+      const auto state = read_checkpoint(run_.checkpoints);
+      if (!state) return;
+      if (state->training != id_) {
+        throw InputError(fmt::format("'{}' is of a training with other data or options",
+                                     checkpoint_file(run_.checkpoints).string()));
       }
-      tensor.copy_(tensor_of(found->second, tensor.sizes()));
+      put_arrays(*state, tensors());
+      adam_.steps = state->steps;
+      epochs_ = state->epochs;
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("{}; give another folder, or remove it to begin anew", error.what()));
     }
-    adam_.steps = state->steps;
-    epochs_ = state->epochs;
   }
 
   /// Replaces the statistics by their mean over all patterns.

@@ -1,6 +1,7 @@
 #include "training/training_time.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ constexpr int kFinest = 64;
 // An epoch this long is told from the clock's and the scheduler's own times.
 constexpr double kLongEnough = 0.25;  // s
 constexpr std::size_t kMostPatterns = 256;
+constexpr int kTimedEpochs = 3;  // the first is slower than those that follow
+// Diagrams that tell how many of them make an epoch of a study that is long enough.
+constexpr int kFewDiagrams = 4;
 
 /// Balls of many sizes.
 neural::DataSet made_up_data(const neural::NetworkOptions& network, std::size_t patterns) {
@@ -45,6 +49,26 @@ neural::DataSet made_up_data(const neural::NetworkOptions& network, std::size_t 
   return data;
 }
 
+/// Seconds of a step of each representation, from `patterns` diagrams. The mean: other work on the
+/// machine, which slows down these steps, will slow down the study, too.
+std::vector<double> seconds_per_image(neural::StudySettings settings, int patterns,
+                                      const StudyRun& run) {
+  using Clock = std::chrono::steady_clock;
+  settings.patterns = patterns;
+  settings.epochs = kTimedEpochs;
+  std::vector<Clock::time_point> ends;
+  study_representations(settings, {.threads = run.threads,
+                                   .stop = run.stop,
+                                   .progress = [&](int, double) { ends.push_back(Clock::now()); }});
+  std::vector<double> seconds;
+  for (std::size_t last = kTimedEpochs - 1; last < ends.size(); last += kTimedEpochs) {
+    const Clock::duration later = ends[last] - ends[last - kTimedEpochs + 1];
+    seconds.push_back(std::chrono::duration<double>(later).count() /
+                      ((kTimedEpochs - 1) * patterns));
+  }
+  return seconds;
+}
+
 }  // namespace
 
 double seconds_per_step(const TrainingOptions& options, const TrainingRun& run) {
@@ -54,7 +78,7 @@ double seconds_per_step(const TrainingOptions& options, const TrainingRun& run) 
   if (resolutions.empty()) resolutions = {kFinest};
   const double scale =
       neural::training_work(options.network) / neural::training_work(coarse.network);
-  coarse.epochs = 3;  // the first is slower than those that follow
+  coarse.epochs = kTimedEpochs;
   coarse.stable_loss = 0;
   TrainingRun unseen = run;
   unseen.checkpoints.clear();
@@ -69,6 +93,18 @@ double seconds_per_step(const TrainingOptions& options, const TrainingRun& run) 
     const double growth = std::clamp(1.2 * kLongEnough / epoch, 1.2, 16.0);
     patterns = static_cast<std::size_t>(std::ceil(growth * static_cast<double>(patterns)));
   }
+}
+
+double study_seconds(const neural::StudySettings& settings, const StudyRun& run) {
+  const std::vector<int> left = study_epochs_left(settings, run);
+  if (std::ranges::count(left, 0) == std::ssize(left)) return 0;
+  std::vector<double> step = seconds_per_image(settings, kFewDiagrams, run);
+  const double wanted = std::ceil(kLongEnough / *std::ranges::min_element(step));
+  const auto patterns = static_cast<int>(std::min<double>(wanted, kMostPatterns));
+  if (patterns > kFewDiagrams) step = seconds_per_image(settings, patterns, run);
+  double seconds = 0;
+  for (std::size_t k = 0; k < step.size(); ++k) seconds += step[k] * left[k] * settings.patterns;
+  return seconds;
 }
 
 }  // namespace fracbench::training

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "training/representation_study.h"
 #include "training/training.h"
 
 namespace fracbench::training {
@@ -12,5 +13,10 @@ namespace fracbench::training {
 /// network of the paper at 256 would take a minute and ten gigabytes to be asked. Throws what
 /// `train` throws.
 double seconds_per_step(const TrainingOptions& options, const TrainingRun& run);
+
+/// Seconds that a study takes for what its check points do not hold yet, measured on some diagrams
+/// of its size for each representation, in some seconds. Throws what `study_representations`
+/// throws.
+double study_seconds(const neural::StudySettings& settings, const StudyRun& run);
 
 }  // namespace fracbench::training

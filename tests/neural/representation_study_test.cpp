@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "core/array_file.h"
@@ -71,6 +72,25 @@ TEST_F(StudyFile, CutShortIsRefused) {
   fs::resize_file(file_, fs::file_size(file_) / 2);
   EXPECT_THROW(read_representation_study(file_), InputError);
   EXPECT_THROW(read_representation_study(file_ / "missing"), InputError);
+}
+
+TEST_F(StudyFile, CheckPointsAreRemovedAndNothingElse) {
+  const fs::path folder = study_checkpoints(file_);
+  EXPECT_EQ(folder.parent_path(), file_.parent_path());
+  const auto make = [&](const fs::path& name) {
+    fs::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << "text";
+  };
+  make("lines/training.checkpoint");
+  make("lines/.fracbench-1-0.part");
+  make("notes");
+  remove_study_checkpoints(file_);
+  EXPECT_FALSE(fs::exists(folder / "lines"));
+  EXPECT_TRUE(fs::exists(folder / "notes"));
+  fs::remove(folder / "notes");
+  remove_study_checkpoints(file_);
+  EXPECT_FALSE(fs::exists(folder));
+  remove_study_checkpoints(file_);  // where there are none
 }
 
 }  // namespace

@@ -126,6 +126,68 @@ TEST_F(TrainProgram, StopsWhenInterruptedAndSaysHowToGoOn) {
   EXPECT_FALSE(fs::exists(folder_ / "ball.model"));
 }
 
+TEST_F(TrainProgram, StudyKilledAtAnyMomentGoesOnAndEndsInTheSameBytes) {
+  const auto study = [](const std::string& out) -> std::vector<std::string> {
+    return {"study-2d",   "--out", out,        "--side", "32",
+            "--patterns", "8",     "--epochs", "4",      "--progress-lines"};
+  };
+  ASSERT_EQ(call(study("whole.data")), 0) << text("err");
+  EXPECT_EQ(lines("out"), 12);
+
+  long last = 0, starts = 0;
+  for (; starts < 30 && !fs::exists(folder_ / "killed.data"); ++starts) {
+    const ::pid_t child = start(study("killed.data"));
+    const long epochs = 1 + starts % 2;
+    int status = 0;
+    bool ended = false;
+    while (lines("out") < epochs && !ended) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ended = ::waitpid(child, &status, WNOHANG) == child;
+    }
+    if (ended) {
+      ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text("err");
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(3 * starts % 17));
+    ::kill(child, SIGKILL);
+    const int end = end_of(child);
+    ASSERT_TRUE(end == -SIGKILL || end == 0) << end;
+    const std::string out = text("out");
+    ASSERT_TRUE(out.starts_with("epoch ")) << out;
+    const long first = std::stol(out.substr(6));
+    EXPECT_GT(first, last) << "the first epoch after a start was done again";
+    last = first;
+  }
+  EXPECT_GE(starts, 3);
+  ASSERT_EQ(call(study("killed.data")), 0) << text("err");
+  EXPECT_EQ(text("killed.data"), text("whole.data"));
+  EXPECT_FALSE(fs::exists(folder_ / "killed.data.checkpoints"));
+}
+
+TEST_F(TrainProgram, StudyStopsWhenInterruptedAndTellsTheTimeOfTheRest) {
+  std::vector<std::string> arguments = {"study-2d", "--out",           "study.data", "--side",
+                                        "32",       "--patterns",      "2",          "--epochs",
+                                        "1000000",  "--progress-lines"};
+  const ::pid_t child = start(arguments);
+  while (lines("out") < 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(end_of(child), 4);
+  EXPECT_NE(text("err").find("the same command goes on"), std::string::npos) << text("err");
+  EXPECT_TRUE(fs::exists(folder_ / "study.data.checkpoints" / "labels" / "training.checkpoint"));
+  EXPECT_FALSE(fs::exists(folder_ / "study.data"));
+
+  arguments[8] = "3";
+  arguments.emplace_back("--time");
+  ASSERT_EQ(call(arguments), 0) << text("err");
+  const std::string said = text("out");
+  EXPECT_TRUE(said.starts_with("message ")) << said;
+  EXPECT_NE(said.find("labels begin anew"), std::string::npos) << said;
+  const auto at = said.find("\nseconds ");
+  ASSERT_NE(at, std::string::npos) << said;
+  EXPECT_GT(std::stod(said.substr(at + 9)), 0);
+  EXPECT_FALSE(fs::exists(folder_ / "study.data")) << "it was made";
+}
+
 TEST_F(TrainProgram, AnswersBadInputWithExitCodeTwoAndLeavesNothing) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
     EXPECT_EQ(call(arguments), 2) << why;

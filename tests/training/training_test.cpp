@@ -258,6 +258,21 @@ TEST_F(TrainingFolder, CheckPointsOfAnotherTrainingAreRefused) {
   EXPECT_THROW(train(test::made_up_data(3, {32}), options, {.checkpoints = folder_}), InputError);
 }
 
+TEST_F(TrainingFolder, CheckPointThatIsDamagedIsRefusedWithTheWayOut) {
+  const DataSet data = test::made_up_data(2, {32});
+  train(data, small(1), {.checkpoints = folder_});
+  const fs::path file = folder_ / "training.checkpoint";
+  fs::resize_file(file, fs::file_size(file) / 2);
+  try {
+    train(data, small(1), {.checkpoints = folder_});
+    FAIL() << "it was used";
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(file.string()), std::string::npos) << what;
+    EXPECT_NE(what.find("remove it to begin anew"), std::string::npos) << what;
+  }
+}
+
 TEST_F(TrainingFolder, LossThatIsNoNumberStopsItAndKeepsTheLastGoodEpoch) {
   const DataSet data = test::made_up_data(2, {32});
   TrainingOptions options = small(5);

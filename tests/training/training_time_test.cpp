@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "neural/operations.h"
 #include "tests/neural/made_up_data.h"
@@ -43,6 +44,19 @@ TEST(TrainingTime, GrowsWithTheWork) {
 TEST(TrainingTime, RefusesWhatTrainingRefuses) {
   EXPECT_ANY_THROW(seconds_per_step({.network = {.resolutions = {48}}}, {}));
   EXPECT_ANY_THROW(seconds_per_step({.network = {.resolutions = {32}}}, {.device = "tpu"}));
+}
+
+TEST(TrainingTime, OfAStudyIsThatOfMakingIt) {
+  using Clock = std::chrono::steady_clock;
+  const neural::StudySettings settings{.side = 32, .patterns = 16, .epochs = 20};
+  const double told = study_seconds(settings, {});
+  const auto start = Clock::now();
+  study_representations(settings);
+  const std::chrono::duration<double> measured = Clock::now() - start;
+  // Other work on the machine may slow down either of them.
+  EXPECT_GT(told, measured.count() / 4);
+  EXPECT_LT(told, measured.count() * 4);
+  EXPECT_ANY_THROW(study_seconds({.side = 48}, {}));
 }
 
 }  // namespace
