@@ -31,13 +31,15 @@ void CommandProgress::update(std::string_view what, double fraction) {
   if (what != what_) {
     what_ = what;
     begin_ = now;
+    first_ = fraction;
   }
   if (now < last_) return;
   last_ = now + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause));
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   std::string text = fmt::format("{}: {:.0f} %", what, 100 * fraction);
-  if (fraction > 0 && fraction < 1) {
-    text += fmt::format(", {} left", describe_seconds(elapsed * (1 - fraction) / fraction));
+  if (fraction > first_ && fraction < 1) {
+    const double left = elapsed * (1 - fraction) / (fraction - first_);
+    text += fmt::format(", {} left", describe_seconds(left));
   }
   fmt::print(stderr, "{}{}{}", terminal_ ? kClearLine : "", text, terminal_ ? "" : "\n");
   shown_ = true;

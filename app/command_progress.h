@@ -27,6 +27,7 @@ class CommandProgress final : public Progress {
   bool shown_ = false;
   std::string what_;
   Clock::time_point begin_;  ///< of `what_`
+  double first_ = 0;         ///< how much of it was done then, where it goes on from before
   Clock::time_point last_;
 };
 

@@ -39,9 +39,17 @@ void require_results_folder(const fs::path& folder) {
   for (const auto& item : fs::directory_iterator(folder)) {
     const std::string name = item.path().filename().string();
     // What the program itself puts there, `report` included.
-    constexpr std::array kOwn = {"records",    "claims",        "shapes",          "report",
-                                 "learning",   "learning.json", "suite.json.part", "summaries",
-                                 "agreements", "study.data"};
+    constexpr std::array kOwn = {"records",
+                                 "claims",
+                                 "shapes",
+                                 "report",
+                                 "learning",
+                                 "learning.json",
+                                 "suite.json.part",
+                                 "summaries",
+                                 "agreements",
+                                 "study.data",
+                                 "study.data.checkpoints"};
     if (std::ranges::find(kOwn, name) != kOwn.end()) continue;
     throw InputError(
         fmt::format("{}: holds '{}', which does not belong to a results folder; choose an empty or "

@@ -37,7 +37,8 @@ TriangleMesh read_target(const std::filesystem::path& folder, std::string_view d
 ///   shapes/<digest>.h5    the meshes of the targets
 ///   claims/               which cells somebody is working on
 ///   summaries/            what the records say, for whoever needs no more (SummaryCache)
-///   study.data            what its study found, where it has one (harness/study.h)
+///   study.data            what its study found, where it has one (harness/study.h); beside it
+///                         study.data.checkpoints/, until it is done
 ///   agreements/           how well fractures agree with the reference (AgreementCache)
 /// Any number of threads, processes and machines may use it at the same time.
 class RecordStore {

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "harness/cost_model.h"
 #include "harness/record_store.h"
 #include "neural/training_program.h"
 
@@ -18,19 +21,43 @@ constexpr const char* kFile = "study.data";
 constexpr const char* kClaim = "study";
 
 /// Whether the study is there; what is there and not it is told of.
-bool is_there(const neural::StudySettings& settings, const StudyCall& call) {
+bool is_there(const neural::StudySettings& settings, const fs::path& folder,
+              const std::function<void(std::string_view)>& message) {
   try {
-    const auto found = read_study(call.folder);
+    const auto found = read_study(folder);
     if (!found) return false;
     if (found->settings == settings) return true;
-    if (call.message) {
-      call.message(
-          fmt::format("{}: is of other settings; made again", (call.folder / kFile).string()));
+    if (message) {
+      message(fmt::format("{}: is of other settings; made again", (folder / kFile).string()));
     }
   } catch (const InputError& error) {
-    if (call.message) call.message(fmt::format("{}; made again", error.what()));
+    if (message) message(fmt::format("{}; made again", error.what()));
   }
   return false;
+}
+
+/// What the training program is asked for.
+std::vector<std::string> arguments_for(const neural::StudySettings& settings,
+                                       const fs::path& folder, int threads) {
+  return {"study-2d",
+          "--out",
+          (folder / kFile).string(),
+          "--side",
+          fmt::format("{}", settings.side),
+          "--patterns",
+          fmt::format("{}", settings.patterns),
+          "--least-sites",
+          fmt::format("{}", settings.least_sites),
+          "--most-sites",
+          fmt::format("{}", settings.most_sites),
+          "--epochs",
+          fmt::format("{}", settings.epochs),
+          "--learning-rate",
+          fmt::format("{}", settings.learning_rate),
+          "--seed",
+          fmt::format("{}", settings.seed),
+          "--threads",
+          fmt::format("{}", threads)};
 }
 
 }  // namespace
@@ -61,18 +88,40 @@ bool make_study(const Suite& suite, const StudyCall& call) {
                     .cells = 0,
                     .command = call.command});
   const Claim claim = store.wait_for_claim(kClaim, call.stop);
-  if (is_there(settings, call)) return false;
-  neural::run_training_program(
-      {"study-2d", "--out", (call.folder / kFile).string(), "--side",
-       fmt::format("{}", settings.side), "--patterns", fmt::format("{}", settings.patterns),
-       "--least-sites", fmt::format("{}", settings.least_sites), "--most-sites",
-       fmt::format("{}", settings.most_sites), "--epochs", fmt::format("{}", settings.epochs),
-       "--learning-rate", fmt::format("{}", settings.learning_rate), "--seed",
-       fmt::format("{}", settings.seed), "--threads", fmt::format("{}", call.threads)},
-      "study", {.stop = call.stop, .on_epoch = [&](double fraction, double) {
-                  if (call.progress) call.progress->update("study", fraction);
-                }});
+  const fs::path file = call.folder / kFile;
+  if (is_there(settings, call.folder, call.message)) {
+    neural::remove_study_checkpoints(file);  // a process may have been killed just before that
+    return false;
+  }
+  neural::run_training_program(arguments_for(settings, call.folder, call.threads), kClaim,
+                               {.stop = call.stop,
+                                .on_epoch =
+                                    [&](double fraction, double) {
+                                      if (call.progress) call.progress->update("study", fraction);
+                                    },
+                                .on_message = call.message});
   return true;
+}
+
+StudyCost study_cost(const Suite& suite, const fs::path& folder, const std::stop_token& stop) {
+  const neural::StudySettings settings = study_settings(suite);
+  StudyCost cost{.study = describe_study(settings)};
+  cost.found = is_there(settings, folder, {});
+  if (cost.found) return cost;
+  std::vector<std::string> arguments = arguments_for(settings, folder, suite.threads_per_cell);
+  arguments.emplace_back("--time");
+  neural::run_training_program(
+      std::move(arguments), kClaim,
+      {.stop = stop, .on_seconds = [&](double seconds) { cost.seconds = seconds; }});
+  return cost;
+}
+
+std::string StudyCost::describe() const {
+  return found ? study + ", done" : fmt::format("{}, about {}", study, describe_seconds(seconds));
+}
+
+nlohmann::ordered_json StudyCost::as_json() const {
+  return {{"study", study}, {"found", found}, {"seconds", seconds}};
 }
 
 std::optional<neural::RepresentationStudy> read_study(const fs::path& folder) {

@@ -105,41 +105,68 @@ void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
   }
 }
 
+/// What a study costs, measured while standard error says so.
+StudyCost measured_cost(const Suite& suite, const std::filesystem::path& folder,
+                        const std::stop_token& stop) {
+  const bool shown = is_terminal(STDERR_FILENO);
+  if (shown) fmt::print(stderr, "measuring some steps of training ...\r");
+  StudyCost cost = study_cost(suite, folder, stop);
+  if (shown) fmt::print(stderr, "{:36}\r", "");
+  return cost;
+}
+
+void say_study_cost(const Suite& suite, const Catalog& catalog, const RunArguments& arguments,
+                    const std::stop_token& stop) {
+  const StudyCost cost = measured_cost(suite, arguments.out, stop);
+  if (arguments.as_json) {
+    print_json(cost.as_json());
+    return;
+  }
+  fmt::print("{}\n", cost.describe());
+  for (const SuiteScale& scale : suite.scales) {
+    const Suite other = at_scale(suite, scale.name, catalog);
+    fmt::print(
+        "--scale {} ({}): {}\n", scale.name, scale.summary,
+        measured_cost(other, std::filesystem::path("results") / other.name, stop).describe());
+  }
+}
+
+/// Whether it was made now, with the progress on the terminal.
+bool make_study_shown(const Suite& suite, const RunArguments& arguments,
+                      const std::stop_token& stop) {
+  CommandProgress progress;
+  return make_study(suite, {.folder = arguments.out,
+                            .command = command_of(arguments),
+                            .threads = suite.threads_per_cell,
+                            .stop = stop,
+                            .progress = &progress,
+                            .message = [](std::string_view text) {
+                              fmt::print(stderr, "fracbench: {}\n", text);
+                            }});
+}
+
 /// A suite that has a study instead of cells.
 ExitCode run_study(const Suite& suite, const Catalog& catalog, const RunArguments& arguments,
                    const std::stop_token& stop) {
-  const neural::StudySettings settings = study_settings(suite);
   if (arguments.dry_run) {
-    if (arguments.as_json) {
-      print_json({{"study", describe_study(settings)}});
-      return ExitCode::good;
-    }
-    fmt::print("{}\n", describe_study(settings));
-    for (const SuiteScale& scale : suite.scales) {
-      fmt::print("--scale {} ({}): {}\n", scale.name, scale.summary,
-                 describe_study(study_settings(at_scale(suite, scale.name, catalog))));
-    }
+    say_study_cost(suite, catalog, arguments, stop);
     return ExitCode::good;
   }
-  bool made = false;
-  {
-    CommandProgress progress;
-    made = make_study(suite, {.folder = arguments.out,
-                              .command = command_of(arguments),
-                              .threads = suite.threads_per_cell,
-                              .stop = stop,
-                              .progress = &progress,
-                              .message = [](std::string_view text) {
-                                fmt::print(stderr, "fracbench: {}\n", text);
-                              }});
+  const std::string study = describe_study(study_settings(suite));
+  bool made = false, stopped = false;
+  try {
+    made = make_study_shown(suite, arguments, stop);
+  } catch (const Cancelled&) {
+    stopped = true;
   }
   if (arguments.as_json) {
-    print_json({{"study", describe_study(settings)}, {"found", !made}});
+    print_json({{"study", study}, {"found", !made && !stopped}, {"stopped", stopped}});
+  } else if (stopped) {
+    fmt::print("{}: stopped; the same command goes on from here\n", study);
   } else {
-    fmt::print("{}: {} {}\n", describe_study(settings), made ? "in" : "found in",
-               arguments.out.string());
+    fmt::print("{}: {} {}\n", study, made ? "in" : "found in", arguments.out.string());
   }
-  return ExitCode::good;
+  return stopped ? ExitCode::not_measured : ExitCode::good;
 }
 
 ExitCode run(RunArguments arguments, std::stop_token stop) {
