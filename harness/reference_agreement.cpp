@@ -16,7 +16,7 @@ namespace {
 
 // So many fractures are in memory at a time, and so many comparisons are lost by who is
 // interrupted.
-constexpr std::size_t kPairsAtATime = 16;
+constexpr std::size_t kPairsAtATime = 48;
 
 /// Two cells whose fractures are compared.
 struct Pair {
