@@ -20,6 +20,7 @@
 #include "core/random.h"
 #include "training/adam.h"
 #include "training/checkpoint.h"
+#include "training/convolution_check.h"
 #include "training/divided_image.h"
 #include "training/network.h"
 
@@ -286,6 +287,7 @@ neural::RepresentationStudy study_representations(const StudySettings& settings,
                                                   const StudyRun& run) {
   check(settings);
   torch::set_num_threads(std::max(1, run.threads));
+  use_right_convolutions();
   std::deque<ImageTraining> trainings = make_trainings(settings, run);
   Random random(settings.seed);
   std::vector<Labels> truth;

@@ -20,6 +20,7 @@
 #include "neural/pix2pix_decoder.h"
 #include "training/adam.h"
 #include "training/checkpoint.h"
+#include "training/convolution_check.h"
 #include "training/network.h"
 
 namespace fracbench::training {
@@ -367,6 +368,7 @@ Model train(const DataSet& data, const TrainingOptions& options, const TrainingR
   device_of(run.device);  // before anything is written
   keep_memory();
   torch::set_num_threads(std::max(1, run.threads));
+  use_right_convolutions();
   if (!run.checkpoints.empty()) std::filesystem::create_directories(run.checkpoints);
   try {
     return Training(data, options, run).run();
