@@ -5,8 +5,7 @@ import { Viewer } from "./viewer.js";
 themeSwitch(document.querySelector("header"));
 sortableTables(document);
 
-const index = document.getElementById("viewer-index");
-if (index) {
+function startViewer(index) {
   const place = document.getElementById("viewer-place");
   const viewer = new Viewer(place, JSON.parse(index.textContent));
   viewer.start();
@@ -30,3 +29,8 @@ if (index) {
     row.lastElementChild.prepend(button, " ");
   }
 }
+
+// The page can be read before the viewer is there, which takes a second where pixels are computed
+// by the processor.
+const index = document.getElementById("viewer-index");
+if (index) addEventListener("load", () => setTimeout(() => startViewer(index)));
