@@ -29,9 +29,11 @@ class Scale {
     if (!axis.categories.empty()) {
       low_ = -0.5;
       high_ = static_cast<double>(axis.categories.size()) - 0.5;
-    } else if (high_ == low_) {
-      low_ -= 0.5;
-      high_ += 0.5;
+    } else if (const double size = std::max(std::abs(low_), std::abs(high_));
+               high_ - low_ <= 1e-9 * size) {  // equal, but for rounding
+      const double margin = std::max(0.5, 0.1 * size);
+      low_ -= margin;
+      high_ += margin;
     } else {
       const double margin = 0.04 * (high_ - low_);
       // A number that cannot be negative gets no room for it.

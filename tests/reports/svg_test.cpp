@@ -82,6 +82,23 @@ TEST(Svg, SaysEachNameOnceInTheLegend) {
   EXPECT_EQ(std::distance(std::sregex_iterator(svg.begin(), svg.end(), legend), {}), 1);
 }
 
+TEST(Svg, NumbersThatDifferByRoundingAreOne) {
+  for (const double value : {0.3, -7e5, 1e20}) {
+    const double next = std::nextafter(value, 1e300);
+    for (const bool logarithmic : {false, true}) {
+      if (logarithmic && value < 0) continue;
+      Figure figure = points({1, 2}, {value, next});
+      figure.y.logarithmic = logarithmic;
+      const std::string svg = to_svg(figure);
+      EXPECT_LT(svg.size(), 5000u) << value;
+      EXPECT_EQ(svg.find("nan"), std::string::npos) << value;
+      const auto places = circles(svg);
+      ASSERT_EQ(places.size(), 2u);
+      EXPECT_NEAR(places[0].y, places[1].y, 0.11);
+    }
+  }
+}
+
 TEST(Svg, ADayLongAxisHasAFewRoundTicks) {
   Figure figure = points({0, 86400}, {0, 1});
   const std::string svg = to_svg(figure);
