@@ -96,13 +96,18 @@ bool learns(const Plan& plan) {
   return std::ranges::any_of(plan.methods, [](const auto& method) { return method.info.learns; });
 }
 
+MeasuringNote::MeasuringNote() : shown_(is_terminal(STDERR_FILENO)) {
+  if (shown_) fmt::print(stderr, "measuring some steps of training ...\r");
+}
+
+MeasuringNote::~MeasuringNote() {
+  if (shown_) fmt::print(stderr, "{:36}\r", "");
+}
+
 std::vector<TrainingCost> measured_training_costs(const Plan& plan, const std::stop_token& stop) {
   if (!learns(plan)) return {};
-  const bool shown = is_terminal(STDERR_FILENO);
-  if (shown) fmt::print(stderr, "measuring some steps of training ...\r");
-  std::vector<TrainingCost> costs = training_costs(plan, stop);
-  if (shown) fmt::print(stderr, "{:36}\r", "");
-  return costs;
+  const MeasuringNote note;
+  return training_costs(plan, stop);
 }
 
 std::string training_lines(const std::vector<TrainingCost>& costs) {

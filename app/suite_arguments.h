@@ -60,6 +60,18 @@ CostEstimate learning_cost(const Suite& suite, const Catalog& catalog,
 /// Whether any of the plan's methods learns from data.
 bool learns(const Plan& plan);
 
+/// Says on a terminal that some steps of training are measured, while it stands.
+class MeasuringNote {
+ public:
+  MeasuringNote();
+  ~MeasuringNote();
+  MeasuringNote(const MeasuringNote&) = delete;
+  MeasuringNote& operator=(const MeasuringNote&) = delete;
+
+ private:
+  const bool shown_;
+};
+
 /// What the plan's methods take to learn, measured while standard error says so.
 std::vector<TrainingCost> measured_training_costs(const Plan& plan, const std::stop_token& stop);
 

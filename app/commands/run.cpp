@@ -105,14 +105,10 @@ void say_cost(const Suite& suite, const Plan& plan, const Catalog& catalog,
   }
 }
 
-/// What a study costs, measured while standard error says so.
 StudyCost measured_cost(const Suite& suite, const std::filesystem::path& folder,
                         const std::stop_token& stop) {
-  const bool shown = is_terminal(STDERR_FILENO);
-  if (shown) fmt::print(stderr, "measuring some steps of training ...\r");
-  StudyCost cost = study_cost(suite, folder, stop);
-  if (shown) fmt::print(stderr, "{:36}\r", "");
-  return cost;
+  const MeasuringNote note;
+  return study_cost(suite, folder, stop);
 }
 
 void say_study_cost(const Suite& suite, const Catalog& catalog, const RunArguments& arguments,
