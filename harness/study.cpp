@@ -39,25 +39,20 @@ bool is_there(const neural::StudySettings& settings, const fs::path& folder,
 /// What the training program is asked for.
 std::vector<std::string> arguments_for(const neural::StudySettings& settings,
                                        const fs::path& folder, int threads) {
-  return {"study-2d",
-          "--out",
-          (folder / kFile).string(),
-          "--side",
-          fmt::format("{}", settings.side),
-          "--patterns",
-          fmt::format("{}", settings.patterns),
-          "--least-sites",
-          fmt::format("{}", settings.least_sites),
-          "--most-sites",
-          fmt::format("{}", settings.most_sites),
-          "--epochs",
-          fmt::format("{}", settings.epochs),
-          "--learning-rate",
-          fmt::format("{}", settings.learning_rate),
-          "--seed",
-          fmt::format("{}", settings.seed),
-          "--threads",
-          fmt::format("{}", threads)};
+  std::vector<std::string> arguments{"study-2d", "--out", (folder / kFile).string()};
+  const auto add = [&](const char* name, const auto& value) {
+    arguments.emplace_back(name);
+    arguments.push_back(fmt::format("{}", value));
+  };
+  add("--side", settings.side);
+  add("--patterns", settings.patterns);
+  add("--least-sites", settings.least_sites);
+  add("--most-sites", settings.most_sites);
+  add("--epochs", settings.epochs);
+  add("--learning-rate", settings.learning_rate);
+  add("--seed", settings.seed);
+  add("--threads", threads);
+  return arguments;
 }
 
 }  // namespace

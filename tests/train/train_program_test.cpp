@@ -51,12 +51,33 @@ class TrainProgram : public ::testing::Test {
   }
 
   /// Exit code, or minus the signal.
+  static int end_of_status(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
   static int end_of(::pid_t child) {
     int status = 0;
     ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return end_of_status(status);
   }
   int call(const std::vector<std::string>& arguments) const { return end_of(start(arguments)); }
+
+  struct KilledCall {
+    bool ended;  ///< before it could be killed
+    int end;     ///< as end_of tells it
+  };
+  /// Kills the call after its first or second epoch, at each of the `starts` a little later.
+  KilledCall killed_call(const std::vector<std::string>& arguments, long starts) const {
+    const ::pid_t child = start(arguments);
+    const long epochs = 1 + starts % 2;
+    int status = 0;
+    while (lines("out") < epochs) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (::waitpid(child, &status, WNOHANG) == child) return {true, end_of_status(status)};
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(3 * starts % 17));
+    ::kill(child, SIGKILL);
+    return {false, end_of(child)};
+  }
 
   std::string text(const char* name) const {
     std::ifstream in(folder_ / name, std::ios::binary);
@@ -81,24 +102,9 @@ TEST_F(TrainProgram, KilledAtAnyMomentLosesAtMostAnEpochAndEndsInTheSameWeights)
 
   long done = 0, starts = 0;
   for (; done < 8 && starts < 60; ++starts) {
-    const ::pid_t child = start(training("killed.model"));
-    // Killed after its first or second epoch, a little later each time.
-    const long epochs = 1 + starts % 2;
-    const auto enough = [&] { return lines("out") >= epochs; };
-    int status = 0;
-    bool ended = false;
-    while (!enough() && !ended) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      ended = ::waitpid(child, &status, WNOHANG) == child;
-    }
-    if (ended) {
-      ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text("err");
-      break;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(3 * starts % 17));
-    ::kill(child, SIGKILL);
-    const int end = end_of(child);
-    ASSERT_TRUE(end == -SIGKILL || end == 0) << end;
+    const auto [ended, end] = killed_call(training("killed.model"), starts);
+    ASSERT_TRUE(end == 0 || (!ended && end == -SIGKILL)) << end << text("err");
+    if (ended) break;
     const std::string first = text("out").substr(0, text("out").find(" 8 "));
     ASSERT_TRUE(first.starts_with("epoch ")) << first;
     EXPECT_LE(std::stol(first.substr(6)), done + 2) << "an epoch was left out";
@@ -136,22 +142,9 @@ TEST_F(TrainProgram, StudyKilledAtAnyMomentGoesOnAndEndsInTheSameBytes) {
 
   long last = 0, starts = 0;
   for (; starts < 30 && !fs::exists(folder_ / "killed.data"); ++starts) {
-    const ::pid_t child = start(study("killed.data"));
-    const long epochs = 1 + starts % 2;
-    int status = 0;
-    bool ended = false;
-    while (lines("out") < epochs && !ended) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      ended = ::waitpid(child, &status, WNOHANG) == child;
-    }
-    if (ended) {
-      ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text("err");
-      break;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(3 * starts % 17));
-    ::kill(child, SIGKILL);
-    const int end = end_of(child);
-    ASSERT_TRUE(end == -SIGKILL || end == 0) << end;
+    const auto [ended, end] = killed_call(study("killed.data"), starts);
+    ASSERT_TRUE(end == 0 || (!ended && end == -SIGKILL)) << end << text("err");
+    if (ended) break;
     const std::string out = text("out");
     ASSERT_TRUE(out.starts_with("epoch ")) << out;
     const long first = std::stol(out.substr(6));
