@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,5 +13,9 @@ namespace fracbench {
 /// What the records of a results folder hold apart from times: names to bytes. Throws DataError for
 /// one that is not whole. Empty where there are none yet.
 std::map<std::string, DataTree::Array> stored_results(const std::filesystem::path& folder);
+
+/// Waits until a results folder has that many records, or the child that makes them has ended.
+/// Returns how many there are.
+std::size_t wait_for_records(const std::filesystem::path& folder, std::size_t count, ::pid_t child);
 
 }  // namespace fracbench

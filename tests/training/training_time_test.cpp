@@ -49,13 +49,16 @@ TEST(TrainingTime, RefusesWhatTrainingRefuses) {
 TEST(TrainingTime, OfAStudyIsThatOfMakingIt) {
   using Clock = std::chrono::steady_clock;
   const neural::StudySettings settings{.side = 32, .patterns = 16, .epochs = 20};
-  const double told = study_seconds(settings, {});
-  const auto start = Clock::now();
-  study_representations(settings);
-  const std::chrono::duration<double> measured = Clock::now() - start;
-  // Other work on the machine may slow down either of them.
-  EXPECT_GT(told, measured.count() / 4);
-  EXPECT_LT(told, measured.count() * 4);
+  // Other work on the machine may slow down either of them, though hardly at every attempt.
+  bool alike = false;
+  for (int attempt = 0; attempt < 5 && !alike; ++attempt) {
+    const double told = study_seconds(settings, {});
+    const auto start = Clock::now();
+    study_representations(settings);
+    const std::chrono::duration<double> measured = Clock::now() - start;
+    alike = told > measured.count() / 4 && told < measured.count() * 4;
+  }
+  EXPECT_TRUE(alike);
   EXPECT_ANY_THROW(study_seconds({.side = 48}, {}));
 }
 
