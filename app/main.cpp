@@ -10,6 +10,7 @@
 
 #include "app/command.h"
 #include "core/error.h"
+#include "core/freed_memory.h"
 #include "core/interrupt.h"
 #include "core/temporary_folder.h"
 #include "core/text.h"
@@ -93,6 +94,7 @@ fracbench::ExitCode run_program(int argc, char** argv, std::stop_token stop) {
 int main(int argc, char** argv) {
   using namespace fracbench;
   neural::use_fitting_blas_kernels(argv);
+  keep_freed_memory();
   // What 'run' starts this program with; nobody else needs it.
   if (argc == 2 && std::string_view(argv[1]) == "worker") return serve_cells(built_in_catalog());
   const Interrupt interrupt;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/freed_memory.h"
 #include "core/random.h"
 #include "harness/data_file.h"
 #include "harness/plan.h"
@@ -207,6 +208,7 @@ BENCHMARK(RunInWorkersPerCell)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->U
 }  // namespace fracbench
 
 int main(int argc, char** argv) {
+  fracbench::keep_freed_memory();  // as the program does
   if (argc == 2 && std::string_view(argv[1]) == "worker") {
     return fracbench::serve_cells(fracbench::instant_catalog());
   }
