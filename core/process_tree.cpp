@@ -1,7 +1,9 @@
 #include "core/process_tree.h"
 
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -42,5 +44,7 @@ std::uint64_t resident_memory(::pid_t process) {
   if (!(statm >> total >> resident)) return 0;
   return resident * page;
 }
+
+void end_with_parent() { ::prctl(PR_SET_PDEATHSIG, SIGTERM); }
 
 }  // namespace fracbench

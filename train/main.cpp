@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/process_tree.h"
 #include "neural/blas_kernels.h"
 #include "neural/data_set.h"
 #include "neural/model.h"
@@ -321,8 +322,10 @@ int run_program(int argc, char** argv, std::stop_token stop) {
     to.add_option("--threads", a.threads, "Of the processor")->capture_default_str();
   };
   add_training_options(*command);
-  command->add_flag("--progress-lines", a.lines,
-                    "A line 'epoch DONE ALL LOSS SECONDS_LEFT' for each epoch on standard output");
+  command->add_flag(
+      "--progress-lines", a.lines,
+      "A line 'epoch DONE ALL LOSS SECONDS_LEFT' for each epoch on standard output, for a "
+      "program that started this one; it stops when that ends");
   command->callback([&] { chosen = [&] { return train(a, stop); }; });
 
   auto* time_command = app.add_subcommand(
@@ -374,6 +377,7 @@ int run_program(int argc, char** argv, std::stop_token stop) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kGood : kBadInput;
   }
+  if (a.lines || two.lines) end_with_parent();
   return chosen();
 }
 

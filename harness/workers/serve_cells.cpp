@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -23,6 +22,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/process_tree.h"
 #include "harness/cell_executor.h"
 #include "harness/workers/cell_request.h"
 #include "harness/workers/message.h"
@@ -53,7 +53,7 @@ void end_with_supervisor() {
   struct sigaction action = {};
   action.sa_handler = end_group;
   ::sigaction(SIGTERM, &action, nullptr);
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  end_with_parent();
   std::thread([] {
     // Not for ever at a time: a socket stays open while it is polled, and the supervisor could not
     // tell that this process had closed it.

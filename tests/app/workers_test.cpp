@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/app/program.h"
+#include "tests/core/processes.h"
 
 namespace fracbench {
 namespace {
@@ -37,20 +38,6 @@ std::vector<::pid_t> children_of(::pid_t process) {
     for (::pid_t child = 0; children >> child;) all.push_back(child);
   }
   return all;
-}
-
-bool is_alive(::pid_t process) {
-  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  return std::getline(stat, text) && text.at(text.rfind(')') + 2) != 'Z';
-}
-
-bool all_gone(const std::vector<::pid_t>& processes) {
-  for (int k = 0; k < 200; ++k) {
-    if (std::ranges::none_of(processes, is_alive)) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
 }
 
 /// The program measuring the suite of a folder with two workers, which are at work.

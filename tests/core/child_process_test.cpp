@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/temporary_folder.h"
+#include "tests/core/processes.h"
 
 namespace fracbench {
 namespace {
@@ -71,15 +72,7 @@ TEST(ChildProcess, EndsWithAllItsDescendantsWhenAskedToStop) {
   pid_t grandchild = 0;
   std::ifstream(folder.path() / "pid") >> grandchild;
   ASSERT_GT(grandchild, 0);
-  // Gone, or dead and not yet collected by the process that inherited it.
-  for (int k = 0; k < 200; ++k) {
-    std::ifstream stat("/proc/" + std::to_string(grandchild) + "/stat");
-    std::string word;
-    stat >> word >> word >> word;
-    if (!stat || word == "Z") return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  ADD_FAILURE() << "process " << grandchild << " is alive";
+  EXPECT_TRUE(all_gone({grandchild}));
 }
 
 TEST(TemporaryWorkFolder, IsRemovedWithWhatIsInIt) {

@@ -20,6 +20,7 @@
 #include "harness/summaries.h"
 #include "hostile_method.h"
 #include "temporary_folder.h"
+#include "tests/core/processes.h"
 #include "toy_catalog.h"
 
 namespace fracbench {
@@ -39,24 +40,6 @@ constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;
 #endif
-
-/// Whether a process is there and not merely waiting to be forgotten by its parent.
-bool is_alive(::pid_t process) {
-  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  if (!std::getline(stat, text)) return false;
-  return text.at(text.rfind(')') + 2) != 'Z';
-}
-
-/// What is killed may take a moment to be gone.
-bool all_gone(const std::vector<::pid_t>& processes) {
-  const auto deadline = Clock::now() + std::chrono::seconds(20);
-  while (Clock::now() < deadline) {
-    if (std::ranges::none_of(processes, is_alive)) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
 
 std::vector<::pid_t> numbers_in(const fs::path& file) {
   std::ifstream in(file);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/freed_memory.h"
 #include "harness/runner.h"
 #include "harness/suite_overrides.h"
 #include "harness/workers/serve_cells.h"
@@ -20,6 +21,7 @@ extern "C" const char* __asan_default_options() {
 
 int main(int argc, char** argv) {
   using namespace fracbench;
+  keep_freed_memory();  // as the program does
   const ToyWorld world;
   const Catalog catalog = world.catalog();
   if (argc == 2 && std::string_view(argv[1]) == "worker") return serve_cells(catalog);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "neural/model.h"
+#include "tests/core/processes.h"
 #include "tests/neural/made_up_data.h"
 
 namespace fracbench {
@@ -130,6 +131,28 @@ TEST_F(TrainProgram, StopsWhenInterruptedAndSaysHowToGoOn) {
   EXPECT_NE(text("err").find("the same command goes on"), std::string::npos) << text("err");
   EXPECT_TRUE(fs::exists(folder_ / "ball.model.checkpoints" / "training.checkpoint"));
   EXPECT_FALSE(fs::exists(folder_ / "ball.model"));
+}
+
+TEST_F(TrainProgram, EndsWithAProgramThatReadsItsLinesAndIsKilled) {
+  auto arguments = training("ball.model");
+  arguments[7] = "epochs=100000";
+  int numbers[2];
+  ASSERT_EQ(::pipe(numbers), 0);
+  const ::pid_t reader = ::fork();
+  if (reader == 0) {
+    const ::pid_t trainer = start(arguments);
+    if (::write(numbers[1], &trainer, sizeof trainer) != sizeof trainer) ::_exit(97);
+    ::pause();
+  }
+  ::pid_t trainer = 0;
+  ASSERT_EQ(::read(numbers[0], &trainer, sizeof trainer), sizeof trainer);
+  for (const int end : numbers) ::close(end);
+  while (lines("out") < 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(is_alive(trainer));
+  ::kill(reader, SIGKILL);
+  EXPECT_EQ(end_of(reader), -SIGKILL);
+  EXPECT_TRUE(all_gone({trainer}));
+  EXPECT_TRUE(fs::exists(folder_ / "ball.model.checkpoints" / "training.checkpoint"));
 }
 
 TEST_F(TrainProgram, StudyKilledAtAnyMomentGoesOnAndEndsInTheSameBytes) {
