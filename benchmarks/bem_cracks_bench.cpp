@@ -84,5 +84,3 @@ BENCHMARK(step_of_full_model)
     ->UseRealTime();
 
 }  // namespace
-
-BENCHMARK_MAIN();

@@ -115,5 +115,3 @@ BENCHMARK(stress_inside)->Arg(400)->Arg(1500)->Arg(6000)->Unit(benchmark::kMicro
 
 }  // namespace
 }  // namespace fracbench::bem
-
-BENCHMARK_MAIN();

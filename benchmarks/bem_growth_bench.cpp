@@ -84,5 +84,3 @@ BENCHMARK(strength_field)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace fracbench::bem
-
-BENCHMARK_MAIN();

@@ -83,5 +83,3 @@ BENCHMARK(fracture)
 
 }  // namespace
 }  // namespace fracbench
-
-BENCHMARK_MAIN();

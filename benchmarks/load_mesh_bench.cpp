@@ -120,5 +120,3 @@ BENCHMARK(check_without_intersections)
 
 }  // namespace
 }  // namespace fracbench
-
-BENCHMARK_MAIN();

@@ -107,5 +107,3 @@ void tags(benchmark::State& state) {
 BENCHMARK(tags)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-
-BENCHMARK_MAIN();

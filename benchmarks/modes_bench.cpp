@@ -95,5 +95,3 @@ BENCHMARK(squirrel_modes)
 
 }  // namespace
 }  // namespace fracbench::modes
-
-BENCHMARK_MAIN();

@@ -153,5 +153,3 @@ BENCHMARK(impact)
 
 }  // namespace
 }  // namespace fracbench
-
-BENCHMARK_MAIN();

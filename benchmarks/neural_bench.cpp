@@ -72,5 +72,3 @@ BENCHMARK(Predict)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-
-BENCHMARK_MAIN();

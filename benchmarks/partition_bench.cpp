@@ -121,5 +121,3 @@ BENCHMARK(exact)
     ->MeasureProcessCPUTime();
 
 }  // namespace
-
-BENCHMARK_MAIN();

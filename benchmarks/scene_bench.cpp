@@ -69,5 +69,3 @@ BENCHMARK(whole_scene)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace fracbench
-
-BENCHMARK_MAIN();

@@ -137,5 +137,3 @@ BENCHMARK(segmentation)
 
 }  // namespace
 }  // namespace fracbench
-
-BENCHMARK_MAIN();

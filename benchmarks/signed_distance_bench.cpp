@@ -65,5 +65,3 @@ BENCHMARK(generated_shape)->DenseRange(0, 7)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace fracbench
-
-BENCHMARK_MAIN();

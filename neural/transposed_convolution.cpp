@@ -116,8 +116,8 @@ Volume TransposedConvolution::many_outputs(std::span<const float> input, int thr
   const std::size_t width = plane * static_cast<std::size_t>(layers);
   const std::size_t rows_in = static_cast<std::size_t>(layer_.in) * 8;
   const std::size_t rows_out = static_cast<std::size_t>(layer_.out) * 8;
-  std::vector<Volume> buffers(static_cast<std::size_t>(std::clamp(threads, 1, products)),
-                              Volume((rows_in + rows_out) * width));
+  std::vector<Volume> buffers(static_cast<std::size_t>(std::clamp(threads, 1, products)));
+  for (Volume& buffer : buffers) buffer = Volume((rows_in + rows_out) * width);
   Volume output(static_cast<std::size_t>(layer_.out) * cube(2 * side));
   on_blas_threads(
       static_cast<std::size_t>(products), threads, [&](std::size_t n, std::size_t thread) {
@@ -146,8 +146,8 @@ Volume TransposedConvolution::many_outputs(std::span<const float> input, int thr
 Volume TransposedConvolution::one_output(std::span<const float> input, int threads) const {
   const int side = layer_.side, out_side = 2 * side;
   const std::size_t plane = static_cast<std::size_t>(side) * side;
-  std::vector<Volume> buffers(static_cast<std::size_t>(std::max(1, threads)),
-                              Volume(kTaps * plane));
+  std::vector<Volume> buffers(static_cast<std::size_t>(std::max(1, threads)));
+  for (Volume& buffer : buffers) buffer = Volume(kTaps * plane);
   Volume output(cube(out_side));
   const auto parts = static_cast<std::size_t>((out_side + kOutputLayers - 1) / kOutputLayers);
   on_blas_threads(parts, threads, [&](std::size_t part, std::size_t thread) {
