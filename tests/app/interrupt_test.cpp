@@ -16,11 +16,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Whether the process has got as far as that.
+/// Whether the process has got as far as that: it blocks them, and a thread of it waits for them.
 bool handles_interrupts(::pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string word; status >> word;) {
-    if (word != "SigCgt:") continue;
+    if (word != "SigBlk:") continue;
     status >> word;
     return std::stoull(word, nullptr, 16) >> (SIGINT - 1) & 1;
   }
