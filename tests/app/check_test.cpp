@@ -106,10 +106,12 @@ TEST_F(HostileMethod, ThatLeavesFilesBehindIsFound) {
   EXPECT_THAT(details_["tidy"], HasSubstr("memo"));
 }
 
-/// That `confined` fails for the file, and no other check does.
-void expect_only_confined_to_fail(const std::string& method, const std::filesystem::path& file) {
+/// That `confined` fails for the file, and no other check does, of those named or of all.
+void expect_only_confined_to_fail(const std::string& method, const std::filesystem::path& file,
+                                  const std::string& only = "") {
   TemporaryFolder folder;
-  const Answer answer = call("check " + method + " --json", folder.path());
+  const Answer answer =
+      call("check " + method + " --json" + (only.empty() ? "" : " --only " + only), folder.path());
   for (const auto& row : answer.json()) {
     if (row["check"] != "confined") {
       EXPECT_NE(row["result"], "failed") << row;
@@ -145,7 +147,8 @@ TEST(CheckCommand, FindsAFileThatAProgramWritesElsewhereOnceAndForAll) {
                                      "')\nif not answers.exists():\n    answers.write_text('x')\n" +
                                      std::string(std::istreambuf_iterator<char>(cutter), {}));
   expect_only_confined_to_fail(
-      "external --set interpreter=python3 --set program=" + python.string(), file);
+      "external --set interpreter=python3 --set program=" + python.string(), file,
+      "confined,tags,same-seed,tidy");  // it writes in the first call alone
 }
 
 TEST(CheckCommand, FindsAFileThatALibraryWritesElsewhere) {
