@@ -19,6 +19,7 @@
 #include "harness/record_store.h"
 #include "harness/suite_overrides.h"
 #include "harness/summaries.h"
+#include "stored_results.h"
 #include "temporary_folder.h"
 #include "toy_catalog.h"
 
@@ -42,16 +43,6 @@ class RunnerTest : public testing::Test {
     if (options.folder.empty()) options.folder = folder;
     options.message = [this](std::string_view text) { messages.emplace_back(text); };
     return run_suite(plan, catalog, options);
-  }
-
-  static std::map<std::string, std::string> digests(const fs::path& results) {
-    std::map<std::string, std::string> all;
-    const RecordStore store(results);
-    for (const auto& file : list_records(results)) {
-      const std::string key = file.stem().string();
-      all[key] = result_digest(store.read(key));
-    }
-    return all;
   }
 
   TemporaryFolder temporary;

@@ -24,6 +24,16 @@ std::map<std::string, DataTree::Array> stored_results(const std::filesystem::pat
   return all;
 }
 
+std::map<std::string, std::string> digests(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> all;
+  const RecordStore store(folder);
+  for (const std::filesystem::path& file : list_records(folder)) {
+    const std::string key = file.stem().string();
+    all[key] = result_digest(store.read(key));
+  }
+  return all;
+}
+
 std::size_t wait_for_records(const std::filesystem::path& folder, std::size_t count,
                              ::pid_t child) {
   while (true) {

@@ -19,6 +19,7 @@
 #include "harness/suite_overrides.h"
 #include "harness/summaries.h"
 #include "hostile_method.h"
+#include "stored_results.h"
 #include "temporary_folder.h"
 #include "tests/core/processes.h"
 #include "toy_catalog.h"
@@ -74,16 +75,6 @@ class WorkerPoolTest : public testing::Test {
     std::vector<CellSummary> cells = read_summaries(results);
     std::erase_if(cells, [](const CellSummary& cell) { return cell.label != "hostile"; });
     return cells;
-  }
-
-  static std::map<std::string, std::string> digests(const fs::path& results) {
-    std::map<std::string, std::string> all;
-    const RecordStore store(results);
-    for (const auto& file : list_records(results)) {
-      const std::string key = file.stem().string();
-      all[key] = result_digest(store.read(key));
-    }
-    return all;
   }
 
   TemporaryFolder temporary;
