@@ -19,6 +19,13 @@ constexpr int kOutputLayers = 8;
 
 std::size_t cube(int side) { return static_cast<std::size_t>(side) * side * side; }
 
+/// Volumes of their own each: a copy of one would touch its pages before the threads do.
+std::vector<Volume> untouched(int count, std::size_t size) {
+  std::vector<Volume> volumes;
+  for (int k = 0; k < count; ++k) volumes.emplace_back(size);
+  return volumes;
+}
+
 /// Tap of the kernel that takes input `a` of a window (0: the lower one) to output of parity `p`.
 int tap(int p, int a) { return 3 - p - 2 * a; }
 
@@ -116,8 +123,8 @@ Volume TransposedConvolution::many_outputs(std::span<const float> input, int thr
   const std::size_t width = plane * static_cast<std::size_t>(layers);
   const std::size_t rows_in = static_cast<std::size_t>(layer_.in) * 8;
   const std::size_t rows_out = static_cast<std::size_t>(layer_.out) * 8;
-  std::vector<Volume> buffers(static_cast<std::size_t>(std::clamp(threads, 1, products)));
-  for (Volume& buffer : buffers) buffer = Volume((rows_in + rows_out) * width);
+  std::vector<Volume> buffers =
+      untouched(std::clamp(threads, 1, products), (rows_in + rows_out) * width);
   Volume output(static_cast<std::size_t>(layer_.out) * cube(2 * side));
   on_blas_threads(
       static_cast<std::size_t>(products), threads, [&](std::size_t n, std::size_t thread) {
@@ -146,8 +153,7 @@ Volume TransposedConvolution::many_outputs(std::span<const float> input, int thr
 Volume TransposedConvolution::one_output(std::span<const float> input, int threads) const {
   const int side = layer_.side, out_side = 2 * side;
   const std::size_t plane = static_cast<std::size_t>(side) * side;
-  std::vector<Volume> buffers(static_cast<std::size_t>(std::max(1, threads)));
-  for (Volume& buffer : buffers) buffer = Volume(kTaps * plane);
+  std::vector<Volume> buffers = untouched(std::max(1, threads), kTaps * plane);
   Volume output(cube(out_side));
   const auto parts = static_cast<std::size_t>((out_side + kOutputLayers - 1) / kOutputLayers);
   on_blas_threads(parts, threads, [&](std::size_t part, std::size_t thread) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/app/program.h"
+#include "tests/core/best_time.h"
 #include "tests/core/processes.h"
 
 namespace fracbench {
@@ -72,17 +73,21 @@ class Workers : public ::testing::Test {
 };
 
 TEST_F(Workers, AreEndedWithinASecondOfAnInterrupt) {
-  const Running run(folder_.path());
-  ASSERT_EQ(run.workers.size(), 2);
-  const auto asked = Clock::now();
-  ::kill(run.id, SIGINT);
-  int status = 0;
-  ASSERT_EQ(::waitpid(run.id, &status, 0), run.id);
-  // The promise is a second; a busy machine may take longer.
-  EXPECT_LT(Clock::now() - asked, std::chrono::seconds(10));
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 4);
-  EXPECT_TRUE(all_gone(run.workers));
+  const auto interrupted_run = [&] {
+    const Running run(folder_.path());
+    EXPECT_EQ(run.workers.size(), 2);
+    const auto asked = Clock::now();
+    ::kill(run.id, SIGINT);
+    int status = 0;
+    EXPECT_EQ(::waitpid(run.id, &status, 0), run.id);
+    const auto ended = Clock::now();
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 4);
+    EXPECT_TRUE(all_gone(run.workers));
+    return ended - asked;
+  };
+  constexpr std::chrono::seconds kLimit(1);
+  EXPECT_LT(best_time(kLimit, interrupted_run), kLimit);
 }
 
 TEST_F(Workers, EndWithAProgramThatIsKilled) {

@@ -6,19 +6,13 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+
+#include "core/process_tree.h"
 
 namespace fracbench {
 namespace {
 
 constexpr std::size_t kBytes = 20 << 20;
-
-/// Of this process, bytes.
-std::size_t resident() {
-  std::size_t total = 0, pages = 0;
-  std::ifstream("/proc/self/statm") >> total >> pages;
-  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
 
 void take_and_free() {
   void* block = std::malloc(kBytes);
@@ -32,9 +26,9 @@ bool keeps(bool asked_to) {
   const ::pid_t child = ::fork();
   if (child == 0) {
     if (asked_to) keep_freed_memory();
-    const std::size_t before = resident();
+    const std::uint64_t before = resident_memory(::getpid());
     take_and_free();
-    ::_exit(resident() >= before + kBytes / 2 ? 1 : 0);
+    ::_exit(resident_memory(::getpid()) >= before + kBytes / 2 ? 1 : 0);
   }
   int status = 0;
   EXPECT_EQ(::waitpid(child, &status, 0), child);

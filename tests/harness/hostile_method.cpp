@@ -214,11 +214,17 @@ class Hostile : public Method {
     return {attack,
             {.name = "share", .fallback = 1.0, .unit = "", .summary = "of the impacts"},
             {.name = "early", .fallback = false, .unit = "", .summary = "while it is prepared"},
-            {.name = "children", .fallback = std::string(), .unit = "", .summary = "a file"}};
+            {.name = "children",
+             .fallback = std::string(),
+             .unit = "",
+             .summary = "a file of the processes that it leaves, or that prepare it"}};
   }
   std::unique_ptr<Breakable> prepare(const Target& target, const LearningData& learning,
                                      const Options& options, Context& context) const override {
-    if (options.flag("early")) attacks().at(options.text("attack"))(options.text("children"));
+    if (options.flag("early")) {
+      std::ofstream(options.text("children"), std::ios::app) << ::getpid() << "\n";
+      attacks().at(options.text("attack"))(options.text("children"));
+    }
     const ToyWorld world;
     const Method& good = world.catalog().method("halves", "hostile");
     return std::make_unique<HostileBody>(

@@ -192,7 +192,7 @@ TEST_F(RunnerTest, WarmUpRunsComeOnceForEachBodyAndAreNotCounted) {
     for (const StageTime& stage : cell.stages) sum += stage.seconds;
     EXPECT_NEAR(sum / cell.total_seconds, 1, 0.02);
   }
-  EXPECT_LT(least, 0.04) << "with three more rounds of 0.01 s none can be as short";
+  EXPECT_LT(least, 0.03) << "with three more rounds of 0.01 s none can be as short";
   warm = with_override(suite, "warm_up=1", catalog);
   run(make_plan(warm, catalog), {.folder = base / "warm"});
   EXPECT_EQ(digests(base / "warm"), digests(base / "cold"));

@@ -1,13 +1,12 @@
 #include "stored_results.h"
 
-#include <sys/wait.h>
-
 #include <chrono>
 #include <thread>
 
 #include "harness/data_file.h"
 #include "harness/record.h"
 #include "harness/record_store.h"
+#include "tests/core/processes.h"
 
 namespace fracbench {
 
@@ -34,13 +33,8 @@ std::map<std::string, std::string> digests(const std::filesystem::path& folder) 
   return all;
 }
 
-std::size_t wait_for_records(const std::filesystem::path& folder, std::size_t count,
-                             ::pid_t child) {
-  while (true) {
-    const std::size_t records = list_records(folder).size();
-    ::siginfo_t end{};  // which is left for whoever waits for the child
-    ::waitid(P_PID, static_cast<::id_t>(child), &end, WEXITED | WNOHANG | WNOWAIT);
-    if (records >= count || end.si_pid == child) return records;
+void wait_for_records(const std::filesystem::path& folder, std::size_t count, ::pid_t child) {
+  while (list_records(folder).size() < count && is_alive(child)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

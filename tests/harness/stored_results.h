@@ -18,7 +18,6 @@ std::map<std::string, DataTree::Array> stored_results(const std::filesystem::pat
 std::map<std::string, std::string> digests(const std::filesystem::path& folder);
 
 /// Waits until a results folder has that many records, or the child that makes them has ended.
-/// Returns how many there are.
-std::size_t wait_for_records(const std::filesystem::path& folder, std::size_t count, ::pid_t child);
+void wait_for_records(const std::filesystem::path& folder, std::size_t count, ::pid_t child);
 
 }  // namespace fracbench
