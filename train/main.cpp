@@ -318,7 +318,8 @@ int run_program(int argc, char** argv, std::stop_token stop) {
   const auto add_training_options = [&](CLI::App& to) {
     to.add_option("--options", a.options_file, "All options of the training, as JSON");
     to.add_option("--set", a.set, "NAME=VALUE: one of them, e.g. epochs=200, network.width=0.25");
-    to.add_option("--device", a.device, "cpu or cuda")->capture_default_str();
+    to.add_option("--device", a.device, "cpu or cuda; cuda:1 and so on of several")
+        ->capture_default_str();
     to.add_option("--threads", a.threads, "Of the processor")->capture_default_str();
   };
   add_training_options(*command);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "core/digest.h"
 #include "core/error.h"
@@ -38,15 +39,25 @@ constexpr std::string_view kCodes = "segment_codes";
 constexpr std::size_t kTimedEpochs = 10;
 
 torch::Device device_of(const std::string& name) {
-  if (name == "cpu") return torch::kCPU;
-  if (name != "cuda") {
-    throw InputError(fmt::format("unknown device '{}', must be cpu or cuda", name));
+  std::optional<torch::Device> device;
+  try {
+    device.emplace(name);
+  } catch (const c10::Error&) {
+    throw InputError(fmt::format(
+        "unknown device '{}', must be cpu or cuda (cuda:1 and so on of several)", name));
   }
-  if (!torch::cuda::is_available()) {
+  if (device->is_cuda() && !torch::cuda::is_available()) {
     throw InputError(
         "there is no CUDA device, or this libtorch was built without CUDA; use --device cpu");
   }
-  return torch::kCUDA;
+  try {
+    torch::zeros({1}, *device).item<float>();
+  } catch (const c10::Error&) {
+    throw InputError(fmt::format(
+        "this libtorch cannot compute on the device '{}'; use --device cpu, or cuda where it is",
+        name));
+  }
+  return *device;
 }
 
 void check_data(const DataSet& data, const neural::NetworkOptions& network) {

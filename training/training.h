@@ -44,7 +44,7 @@ struct TrainingOptions {
 /// What does not change what is learned, but for rounding.
 struct TrainingRun {
   int threads = 1;
-  std::string device = "cpu";              ///< "cpu" or "cuda"
+  std::string device = "cpu";              ///< libtorch's name: "cpu", "cuda", "cuda:1" ...
   std::filesystem::path checkpoints = {};  ///< folder; empty: none are written
   std::stop_token stop = {};
   /// Told after each epoch: how many are done, its loss, and seconds that are left.
