@@ -134,6 +134,12 @@ std::vector<Piece> reconstruct(const TriangleMesh& body, const VoxelGrid<float>&
       100.0 * static_cast<double>(segments.dam_voxels) / static_cast<double>(segments.mask_voxels),
       segments.dropped_labels, parity ? "lost" : "given to neighbours"));
 
+  if (segments.count > options.most_fragments) {
+    throw MethodFailure(fmt::format(
+        "deepfracture: the predicted field falls into {} fragments, more than most_fragments = {}: "
+        "the network has not learned these fractures; train it for more epochs, or raise 'h'",
+        segments.count, options.most_fragments));
+  }
   const auto stage = context.timer.stage("boolean");
   if (parity) {
     const int least =

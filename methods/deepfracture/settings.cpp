@@ -106,6 +106,8 @@ OptionsSchema options_schema() {
       integer("least_patterns", 2, "", "fewer fractures to learn from are refused", 1, 1e6),
       number("cage", 0, "m", "width added around the body; 0: 0.03, or half a voxel", 0, 1),
       number("h", 3, "of 255", "depth that a basin needs to become a fragment", 0, 255),
+      integer("most_fragments", 1000, "", "a field of more is a failure: it has not been learned",
+              2, 1e6),
       choice("fracture_surfaces", "how fine they are: as the grid, or as the body's own surface",
              {"as-grid", "as-surface"}),
       {.name = "parity",
@@ -153,6 +155,7 @@ Settings settings_from(const Options& options) {
   if (options.number("cage") > 0) s.reconstruct.segmentation.cage = options.number("cage");
   s.reconstruct.segmentation.h = options.number("h");
   s.reconstruct.segmentation.parity = parity;
+  s.reconstruct.most_fragments = static_cast<int>(options.integer("most_fragments"));
   s.reconstruct.as_coarse_as_surface = options.text("fracture_surfaces") == "as-surface";
   if (s.model.empty() &&
       std::ranges::find(s.network.resolutions, s.resolution) == s.network.resolutions.end()) {

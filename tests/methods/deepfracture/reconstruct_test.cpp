@@ -1,10 +1,12 @@
 #include "methods/deepfracture/reconstruct.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "geometry/check_mesh.h"
 #include "geometry/gs_sdf.h"
 #include "geometry/measures.h"
@@ -17,6 +19,9 @@
 
 namespace fracbench::deepfracture {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 class ReconstructTest : public testing::Test {
  protected:
@@ -98,6 +103,21 @@ TEST_F(ReconstructTest, AFieldWithoutInsideIsAFailureOfTheMethod) {
   EXPECT_THROW(reconstruct(body.mesh, unit_grid<float>(16, -1.0f), {}, context.get()),
                MethodFailure);
   EXPECT_THROW(reconstruct(body.mesh, unit_grid<float>(16, NAN), {}, context.get()), MethodFailure);
+}
+
+// Rigid bodies of all of them would overlap each other, which takes hours.
+TEST_F(ReconstructTest, AFieldOfNoiseIsAFailureThatSaysHowManyFragmentsItFallsInto) {
+  Random random(3);
+  VoxelGrid<float> noise = unit_grid<float>(32);
+  for (float& value : noise.values) value = static_cast<float>(random.uniform(-0.2, 1));
+  try {
+    reconstruct(body.mesh, noise, {.most_fragments = 30}, context.get());
+    FAIL();
+  } catch (const MethodFailure& failure) {
+    EXPECT_THAT(failure.what(), AllOf(HasSubstr(" fragments, more than most_fragments = 30"),
+                                      HasSubstr("more epochs")));
+  }
+  EXPECT_GT(reconstruct(body.mesh, noise, {}, context.get()).size(), 30u);
 }
 
 TEST_F(ReconstructTest, TheLabelsOfExactFieldsAgreeWithTheirFragmentsAndNoOthers) {
