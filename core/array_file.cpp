@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstring>
+#include <deque>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -35,14 +36,14 @@ constexpr std::string_view kTypeName<float> = "float32";
 template <>
 constexpr std::string_view kTypeName<std::int32_t> = "int32";
 
-std::string digest_of(std::string_view bytes) {
+std::string digest_of(std::span<const std::string_view> parts) {
   Digest digest;
-  digest.add(bytes);
+  digest.add(parts);
   return digest.hex();
 }
 
 template <typename T>
-std::string_view bytes_of(const std::vector<T>& values) {
+std::string_view bytes_of(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
@@ -69,19 +70,23 @@ std::string packed(std::string_view bytes, std::size_t width) {
   return out;
 }
 
+/// What a file has between its first line and its check sum.
+struct Body {
+  Json list = Json::array();  ///< of its arrays, as the first line has it
+  std::vector<std::string_view> parts;
+  std::deque<std::string> packed;  ///< those of the parts that lie nowhere else
+};
+
 template <typename T>
-void append(const std::map<std::string, std::vector<T>>& arrays, bool pack, Json& list,
-            std::string& body) {
+void append(const std::map<std::string, std::span<const T>>& arrays, bool pack, Body& body) {
   for (const auto& [name, values] : arrays) {
     Json entry = {name, kTypeName<T>, values.size()};
+    body.parts.push_back(bytes_of(values));
     if (pack) {
-      const std::string bytes = packed(bytes_of(values), sizeof(T));
-      entry.push_back(bytes.size());
-      body += bytes;
-    } else {
-      body += bytes_of(values);
+      body.parts.back() = body.packed.emplace_back(packed(body.parts.back(), sizeof(T)));
+      entry.push_back(body.parts.back().size());
     }
-    list.push_back(std::move(entry));
+    body.list.push_back(std::move(entry));
   }
 }
 
@@ -122,8 +127,9 @@ std::vector<T> take(std::string_view& bytes, const Json& entry) {
 }
 
 ArrayFile parse(std::string_view bytes, const ArrayFileKind& kind) {
-  if (bytes.size() < kDigestLength || digest_of(bytes.substr(0, bytes.size() - kDigestLength)) !=
-                                          bytes.substr(bytes.size() - kDigestLength)) {
+  const bool is_long = bytes.size() >= kDigestLength;
+  const std::string_view before = bytes.substr(0, is_long ? bytes.size() - kDigestLength : 0);
+  if (!is_long || digest_of({&before, 1}) != bytes.substr(before.size())) {
     throw InputError("it is damaged or cut short: its check sum does not fit");
   }
   bytes.remove_suffix(kDigestLength);
@@ -170,23 +176,28 @@ bool read_bytes(const std::filesystem::path& file, std::string& bytes) {
 
 }  // namespace
 
-void write_array_file(const std::filesystem::path& file, const ArrayFile& arrays,
+ArrayViews::ArrayViews(const ArrayFile& arrays) : texts(arrays.texts) {
+  reals.insert(arrays.reals.begin(), arrays.reals.end());
+  floats.insert(arrays.floats.begin(), arrays.floats.end());
+  integers.insert(arrays.integers.begin(), arrays.integers.end());
+}
+
+void write_array_file(const std::filesystem::path& file, const ArrayViews& arrays,
                       const ArrayFileKind& kind) {
   Json header;
   header["format"] = kind.format;
   header["version"] = kind.version;
   header["texts"] = arrays.texts;
-  Json list = Json::array();
-  std::string body;
-  append(arrays.reals, kind.packed, list, body);
-  append(arrays.floats, kind.packed, list, body);
-  append(arrays.integers, kind.packed, list, body);
-  header["arrays"] = std::move(list);
-  std::string bytes = header.dump() + "\n";
-  bytes += body;
-  body = {};
-  bytes += digest_of(bytes);
-  write_file_atomically(file, bytes);
+  Body body;
+  append(arrays.reals, kind.packed, body);
+  append(arrays.floats, kind.packed, body);
+  append(arrays.integers, kind.packed, body);
+  header["arrays"] = std::move(body.list);
+  const std::string first_line = header.dump() + "\n";
+  body.parts.insert(body.parts.begin(), first_line);
+  const std::string digest = digest_of(body.parts);
+  body.parts.push_back(digest);
+  write_file_atomically(file, body.parts);
 }
 
 ArrayFile read_array_file(const std::filesystem::path& file, const ArrayFileKind& kind) {

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -89,26 +90,37 @@ class OpenFile {
   std::filesystem::path remove_;
 };
 
-/// The file of bytes that is to be renamed to `path`, not closed yet; none where that is a device,
-/// which has the bytes then.
-std::optional<OpenFile> written(const std::filesystem::path& path, std::string_view bytes,
+using Parts = std::span<const std::string_view>;
+
+std::size_t size_of(Parts parts) {
+  std::size_t size = 0;
+  for (const std::string_view part : parts) size += part.size();
+  return size;
+}
+
+/// The file of these bytes that is to be renamed to `path`, not closed yet; none where that is a
+/// device, which has the bytes then.
+std::optional<OpenFile> written(const std::filesystem::path& path, Parts parts,
                                 const std::filesystem::path& temporary) {
   const auto check = [&](int error) {
-    if (error != 0) fail(path, bytes.size(), error);
+    if (error != 0) fail(path, size_of(parts), error);
+  };
+  const auto write = [&](const OpenFile& file) {
+    for (const std::string_view part : parts) check(file.write(part));
   };
   struct ::stat status = {};
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
     if (S_ISDIR(status.st_mode)) check(EISDIR);
     OpenFile device(path, O_WRONLY);
     if (!device.is_open()) check(errno);
-    check(device.write(bytes));
+    write(device);
     check(device.close());
     return std::nullopt;
   }
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.is_open()) check(errno);
   file.remove_at_end(temporary);
-  check(file.write(bytes));
+  write(file);
   return file;
 }
 
@@ -133,12 +145,18 @@ void sync_names(const std::filesystem::path& folder) {
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            std::filesystem::path temporary) {
+  write_file_atomically(path, Parts(&bytes, 1), std::move(temporary));
+}
+
+void write_file_atomically(const std::filesystem::path& path, Parts parts,
+                           std::filesystem::path temporary) {
+  const std::size_t size = size_of(parts);
   if (temporary.empty()) temporary = temporary_beside(path);
-  auto file = written(path, bytes, temporary);
+  auto file = written(path, parts, temporary);
   if (!file) return;
-  if (::fsync(file->descriptor()) != 0) fail(path, bytes.size(), errno);
-  if (const int error = file->close()) fail(path, bytes.size(), error);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, bytes.size(), errno);
+  if (::fsync(file->descriptor()) != 0) fail(path, size, errno);
+  if (const int error = file->close()) fail(path, size, error);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, size, errno);
   file->keep();
   sync_names(folder_of(path));
 }
@@ -150,7 +168,7 @@ AtomicFiles::~AtomicFiles() {
 void AtomicFiles::add(const std::filesystem::path& path, std::string_view bytes) {
   constexpr std::size_t many = 128;
   const std::filesystem::path temporary = temporary_beside(path);
-  auto file = written(path, bytes, temporary);
+  auto file = written(path, Parts(&bytes, 1), temporary);
   if (!file) return;
   if (const int error = file->close()) fail(path, bytes.size(), error);
   {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <mutex>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace fracbench {
 /// `temporary` is the name of the temporary file, for callers who know that nobody else uses it
 /// and clean up after a process that was killed; by default it is one of this process's own.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           std::filesystem::path temporary = {});
+/// The same of bytes in several places, one after another.
+void write_file_atomically(const std::filesystem::path& path,
+                           std::span<const std::string_view> parts,
                            std::filesystem::path temporary = {});
 
 /// Many files, each of which appears whole or not at all, for one wait for the disk: those that

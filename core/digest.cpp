@@ -45,6 +45,13 @@ void Digest::add(std::span<const std::byte> bytes) {
 
 void Digest::add(std::string_view text) { add(std::as_bytes(std::span(text))); }
 
+void Digest::add(std::span<const std::string_view> parts) {
+  std::uint64_t size = 0;
+  for (const std::string_view part : parts) size += part.size();
+  state_->update(&size, sizeof size);
+  for (const std::string_view part : parts) state_->update(part.data(), part.size());
+}
+
 void Digest::add(std::uint64_t value) { add(std::as_bytes(std::span(&value, 1))); }
 
 void Digest::add(double value) { add(std::as_bytes(std::span(&value, 1))); }

@@ -23,6 +23,8 @@ class Digest {
 
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text);
+  /// As one text, one after another.
+  void add(std::span<const std::string_view> parts);
   void add(std::uint64_t value);
   void add(double value);
   void add(const TriangleMesh& mesh);

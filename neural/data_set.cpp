@@ -94,17 +94,20 @@ void write_data_set(const std::filesystem::path& file, const DataSet& data) {
   arrays.texts["provenance"] = data.provenance;
   arrays.reals["field_unit"] = {data.field_unit};
   auto names = nlohmann::json::array();
-  for (std::size_t k = 0; k < data.patterns.size(); ++k) {
-    const Pattern& pattern = data.patterns[k];
+  for (const Pattern& pattern : data.patterns) {
     names.push_back(pattern.name);
     arrays.integers["pattern_shape"].push_back(pattern.shape);
-    arrays.floats[pattern_name(k, "impulses")] = pattern.impulses;
-    for (const auto& [r, field] : pattern.fields) {
-      arrays.floats[pattern_name(k, std::to_string(r))] = field;
-    }
   }
   arrays.texts["names"] = names.dump();
-  write_array_file(file, arrays, kKind);
+  ArrayViews views = arrays;
+  for (std::size_t k = 0; k < data.patterns.size(); ++k) {
+    const Pattern& pattern = data.patterns[k];
+    views.floats[pattern_name(k, "impulses")] = pattern.impulses;
+    for (const auto& [r, field] : pattern.fields) {
+      views.floats[pattern_name(k, std::to_string(r))] = field;
+    }
+  }
+  write_array_file(file, views, kKind);
 }
 
 DataSet read_data_set(const std::filesystem::path& file) {

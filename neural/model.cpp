@@ -116,18 +116,19 @@ void write_model(const std::filesystem::path& path, const Model& model) {
     file.reals["epoch_loss"].push_back(epoch.loss);
     file.reals["epoch_seconds"].push_back(epoch.seconds);
   }
-  file.floats["siren.weight"] = model.siren.weight;
-  file.floats["siren.bias"] = model.siren.bias;
-  file.floats["codebook"] = model.codebook;
-  file.integers["codebook_pattern"] = model.codebook_pattern;
-  file.integers["codebook_shape"] = model.codebook_shape;
+  ArrayViews views = file;
+  views.floats["siren.weight"] = model.siren.weight;
+  views.floats["siren.bias"] = model.siren.bias;
+  views.floats["codebook"] = model.codebook;
+  views.integers["codebook_pattern"] = model.codebook_pattern;
+  views.integers["codebook_shape"] = model.codebook_shape;
   for (const auto& [name, values] : model.weights) {
-    file.floats[std::string(kWeights) + name] = values;
+    views.floats[std::string(kWeights) + name] = values;
   }
   for (const auto& [name, values] : model.statistics) {
-    file.floats[std::string(kStatistics) + name] = values;
+    views.floats[std::string(kStatistics) + name] = values;
   }
-  write_array_file(path, file, kKind);
+  write_array_file(path, views, kKind);
 }
 
 Model read_model(const std::filesystem::path& path) { return made_of_file(path, kKind, model_of); }

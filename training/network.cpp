@@ -53,8 +53,12 @@ torch::Tensor tensor_of(const std::vector<float>& values, torch::IntArrayRef sha
   return torch::tensor(values, torch::kFloat32).reshape(shape);
 }
 
+torch::Tensor in_order(const torch::Tensor& tensor) {
+  return tensor.detach().to(torch::kCPU).contiguous();
+}
+
 std::vector<float> values_of(const torch::Tensor& tensor) {
-  const torch::Tensor plain = tensor.detach().to(torch::kCPU).contiguous();
+  const torch::Tensor plain = in_order(tensor);
   const float* from = plain.data_ptr<float>();
   return {from, from + plain.numel()};
 }

@@ -65,5 +65,7 @@ torch::Tensor field_loss(const torch::Tensor& field, const torch::Tensor& target
 /// Of our arrays and libtorch's: copies, on the processor.
 torch::Tensor tensor_of(const std::vector<float>& values, torch::IntArrayRef shape);
 std::vector<float> values_of(const torch::Tensor& tensor);
+/// The tensor itself where it is on the processor and contiguous, else a copy that is.
+torch::Tensor in_order(const torch::Tensor& tensor);
 
 }  // namespace fracbench::training

@@ -189,15 +189,16 @@ class ImageTraining {
 
   void restore() {
     try {
-      const auto state = read_checkpoint(folder());
-      if (!state) return;
-      if (state->training != id() || static_cast<int>(state->epochs.size()) > settings_.epochs) {
+      const auto kept = read_checkpoint(folder());
+      if (!kept) return;
+      if (kept->state.training != id() ||
+          static_cast<int>(kept->state.epochs.size()) > settings_.epochs) {
         throw InputError(
             fmt::format("'{}' is of other settings", checkpoint_file(folder()).string()));
       }
-      put_arrays(*state, tensors());
-      adam_.steps = state->steps;
-      epochs_ = state->epochs;
+      put_arrays(*kept, tensors());
+      adam_.steps = kept->state.steps;
+      epochs_ = kept->state.epochs;
     } catch (const InputError& error) {
       if (run_.message) {
         run_.message(fmt::format("{}; {} begin anew", error.what(), to_string(representation_)));
@@ -211,10 +212,7 @@ class ImageTraining {
     if (start < next_check_point_ && epochs_left() > 0) return;
     std::error_code ignored;  // the file that cannot be written tells of it
     std::filesystem::create_directories(folder(), ignored);
-    write_checkpoint(folder(), {.training = id(),
-                                .steps = adam_.steps,
-                                .epochs = epochs_,
-                                .arrays = arrays_of(tensors())});
+    write_checkpoint(folder(), {id(), adam_.steps, epochs_}, tensors());
     const auto end = Clock::now();
     next_check_point_ = end + kTrainingPerCheckPoint * (end - start);
   }

@@ -131,7 +131,9 @@ class Training {
       EpochRecord epoch{.loss = one_epoch(), .seconds = 0};
       epoch.seconds = std::chrono::duration<double>(Clock::now() - start).count();
       epochs_.push_back(epoch);
-      if (!run_.checkpoints.empty()) write_checkpoint(run_.checkpoints, state());
+      if (!run_.checkpoints.empty()) {
+        write_checkpoint(run_.checkpoints, {id_, adam_.steps, epochs_}, tensors());
+      }
       if (run_.progress) {
         run_.progress(static_cast<int>(epochs_.size()), epoch.loss, seconds_left());
       }
@@ -243,23 +245,18 @@ class Training {
     return list;
   }
 
-  Checkpoint state() {
-    return {
-        .training = id_, .steps = adam_.steps, .epochs = epochs_, .arrays = arrays_of(tensors())};
-  }
-
   void restore() {
     if (run_.checkpoints.empty()) return;
     try {
-      const auto state = read_checkpoint(run_.checkpoints);
-      if (!state) return;
-      if (state->training != id_) {
+      const auto kept = read_checkpoint(run_.checkpoints);
+      if (!kept) return;
+      if (kept->state.training != id_) {
         throw InputError(fmt::format("'{}' is of a training with other data or options",
                                      checkpoint_file(run_.checkpoints).string()));
       }
-      put_arrays(*state, tensors());
-      adam_.steps = state->steps;
-      epochs_ = state->epochs;
+      put_arrays(*kept, tensors());
+      adam_.steps = kept->state.steps;
+      epochs_ = kept->state.epochs;
     } catch (const InputError& error) {
       throw InputError(
           fmt::format("{}; give another folder, or remove it to begin anew", error.what()));

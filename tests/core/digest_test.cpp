@@ -12,6 +12,13 @@ TEST(Digest, IsSha256OverTheValueAndItsLength) {
   EXPECT_EQ(digest.hex(), "798c246007c2d105b64ef769d530bb4618b3f6c3eeee5c55dfd790ad6ad01410");
 }
 
+TEST(Digest, OfPartsIsThatOfTheWhole) {
+  const std::vector<std::string_view> parts{"fra", "", "cture"};
+  Digest digest;
+  digest.add(parts);
+  EXPECT_EQ(digest.hex(), "798c246007c2d105b64ef769d530bb4618b3f6c3eeee5c55dfd790ad6ad01410");
+}
+
 TEST(Digest, ChangesWithEveryVertexAndFace) {
   TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   const auto of = [](const TriangleMesh& m) {
