@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,19 +12,27 @@
 
 namespace fracbench {
 
-void CostModel::add(const std::string& shape, const std::string& label, double seconds) {
-  for (Mean* mean : {&by_shape_[{shape, label}], &by_label_[label]}) {
-    mean->sum += seconds;
-    ++mean->count;
+void CostModel::add(const std::string& shape, const std::string& label, double seconds,
+                    std::span<const StageTime> stages) {
+  double body = 0;
+  for (const StageTime& stage : stages) {
+    if (stage.name == "prepare") body = std::min(stage.seconds, seconds);
+  }
+  for (Measured* measured : {&by_shape_[{shape, label}], &by_label_[label]}) {
+    measured->sum += seconds - body;
+    ++measured->count;
+    measured->body = std::max(measured->body, body);
   }
 }
 
-std::optional<double> CostModel::seconds(const std::string& shape, const std::string& label) const {
+std::optional<double> CostModel::seconds(const std::string& shape, const std::string& label,
+                                         std::size_t cells) const {
+  const auto many = static_cast<double>(cells);
   const auto exact = by_shape_.find({shape, label});
-  if (exact != by_shape_.end()) return exact->second.sum / exact->second.count;
+  if (exact != by_shape_.end()) return many * exact->second.mean();
   const auto alike = by_label_.find(label);
-  if (alike != by_label_.end()) return alike->second.sum / alike->second.count;
-  return std::nullopt;
+  if (alike == by_label_.end()) return std::nullopt;
+  return cells == 0 ? 0 : many * alike->second.mean() + alike->second.body;
 }
 
 std::string CostEstimate::describe() const {
@@ -59,20 +68,23 @@ CostEstimate estimate_cost(const Plan& plan, const std::filesystem::path& folder
   for (const std::filesystem::path& file : list_records(folder)) {
     try {
       const CellSummary summary = cache.read(file);
-      model.add(summary.shape, summary.label, summary.total_seconds);
+      model.add(summary.shape, summary.label, summary.total_seconds, summary.stages);
       there.insert(file.stem().string());
     } catch (const DataError&) {
       // The run itself will say so and redo it.
     }
   }
+  std::map<std::pair<std::string, std::string>, std::size_t> missing;
   for (const Cell& cell : plan.cells) {
     if (there.contains(cell.key)) {
       ++estimate.there;
-      continue;
+    } else {
+      ++missing[{plan.shapes[cell.shape].label, plan.methods[cell.method].label}];
     }
-    const auto seconds =
-        model.seconds(plan.shapes[cell.shape].label, plan.methods[cell.method].label);
-    if (!seconds) ++estimate.unknown;
+  }
+  for (const auto& [kind, count] : missing) {
+    const auto seconds = model.seconds(kind.first, kind.second, count);
+    if (!seconds) estimate.unknown += count;
     estimate.seconds += seconds.value_or(0) / jobs;
   }
   return estimate;
@@ -86,7 +98,8 @@ std::string describe_seconds(double seconds) {
   if (total < 60) return fmt::format("{} s", total);
   if (total < 3600) return fmt::format("{} min {} s", total / 60, total % 60);
   if (total < 86400) return fmt::format("{} h {} min", total / 3600, total / 60 % 60);
-  return fmt::format("{} days {} h", total / 86400, total / 3600 % 24);
+  const auto days = total / 86400;
+  return fmt::format("{} day{} {} h", days, days == 1 ? "" : "s", total / 3600 % 24);
 }
 
 }  // namespace fracbench

@@ -5,29 +5,39 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "core/stage_timer.h"
 #include "harness/plan.h"
 
 namespace fracbench {
 
-/// How long cells take, from those that were measured.
+/// How long cells take, from those that were measured. The first of a shape and method also makes
+/// the breakable body, which may take longer than all that follow.
 class CostModel {
  public:
-  void add(const std::string& shape, const std::string& label, double seconds);
+  /// A cell that took `seconds`, and of them those of its stage "prepare" for its body.
+  void add(const std::string& shape, const std::string& label, double seconds,
+           std::span<const StageTime> stages);
 
-  /// Mean over the cells of this shape and method, else over those of the method; none where the
-  /// method was never measured.
-  std::optional<double> seconds(const std::string& shape, const std::string& label) const;
+  /// Of `cells` further ones: as the mean over those of this shape and method, else over those of
+  /// the method, whose bodies tell what this one will take; none where the method was never
+  /// measured.
+  std::optional<double> seconds(const std::string& shape, const std::string& label,
+                                std::size_t cells) const;
 
  private:
-  struct Mean {
-    double sum = 0;
+  struct Measured {
+    double sum = 0;  ///< s, without bodies
     std::size_t count = 0;
+    double body = 0;  ///< s, the longest
+
+    double mean() const { return sum / static_cast<double>(count); }
   };
-  std::map<std::pair<std::string, std::string>, Mean> by_shape_;
-  std::map<std::string, Mean> by_label_;
+  std::map<std::pair<std::string, std::string>, Measured> by_shape_;
+  std::map<std::string, Measured> by_label_;
 };
 
 /// What a run would cost.

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <thread>
 #include <tuple>
 
@@ -179,7 +180,7 @@ class Run {
     const Record record = execute(cell, index);
     summaries_.add(store_.record_file(cell.key), store_.write(*claim, record));
     const std::chrono::duration<double> seconds = Clock::now() - start;
-    note(cell, record.outcome.status, seconds.count(), false);
+    note(cell, record.outcome.status, seconds.count(), record.cost.stages, false);
     if (is_lost(record.outcome.status)) say_lost(cell, record.outcome);
     return true;
   }
@@ -222,7 +223,7 @@ class Run {
       const CellSummary found = summaries_.read(store_.record_file(cell.key));
       if (!is_lost(found.status) ||
           !may_do_better(store_.read(cell.key), plan_.methods[cell.method].limits)) {
-        note(cell, found.status, found.total_seconds, true);
+        note(cell, found.status, found.total_seconds, found.stages, true);
         return true;
       }
       why = "outdated";
@@ -238,13 +239,14 @@ class Run {
     return false;
   }
 
-  void note(const Cell& cell, CellStatus status, double seconds, bool found) {
+  void note(const Cell& cell, CellStatus status, double seconds, std::span<const StageTime> stages,
+            bool found) {
     const Kind kind = kind_of(cell);
     const std::scoped_lock lock(mutex_);
     ++result_.counts[status];
     result_.found += found;
     --remaining_[kind];
-    costs_.add(kind.first, kind.second, seconds);
+    costs_.add(kind.first, kind.second, seconds, stages);
     changed_.notify_all();
   }
 
@@ -284,9 +286,9 @@ class Run {
     double left = 0;
     for (const auto& [kind, count] : remaining_) {
       if (count == 0) continue;
-      const auto each = costs_.seconds(kind.first, kind.second);
-      if (!each) return progress;
-      left += *each * static_cast<double>(count) / options_.jobs;
+      const auto seconds = costs_.seconds(kind.first, kind.second, count);
+      if (!seconds) return progress;
+      left += *seconds / options_.jobs;
     }
     progress.seconds_left = left;
     return progress;

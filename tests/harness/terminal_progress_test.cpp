@@ -59,19 +59,33 @@ TEST(TerminalProgressTest, SpeaksOfTimesAsPeopleDo) {
   EXPECT_EQ(describe_seconds(59), "59 s");
   EXPECT_EQ(describe_seconds(3599), "59 min 59 s");
   EXPECT_EQ(describe_seconds(7500), "2 h 5 min");
+  EXPECT_EQ(describe_seconds(90000), "1 day 1 h");
   EXPECT_EQ(describe_seconds(274000), "3 days 4 h");
   EXPECT_EQ(describe_seconds(1e300), "an unknown time");
 }
 
 TEST(CostModelTest, PrefersTheSameShapeAndFallsBackToTheSameMethod) {
   CostModel model;
-  EXPECT_FALSE(model.seconds("pot", "cvd"));
-  model.add("pot", "cvd", 1);
-  model.add("pot", "cvd", 3);
-  model.add("mug", "cvd", 8);
-  EXPECT_EQ(model.seconds("pot", "cvd"), 2);
-  EXPECT_EQ(model.seconds("bar", "cvd"), 4);
-  EXPECT_FALSE(model.seconds("pot", "bem"));
+  EXPECT_FALSE(model.seconds("pot", "cvd", 1));
+  model.add("pot", "cvd", 1, {});
+  model.add("pot", "cvd", 3, {});
+  model.add("mug", "cvd", 8, {});
+  EXPECT_EQ(model.seconds("pot", "cvd", 1), 2);
+  EXPECT_EQ(model.seconds("pot", "cvd", 10), 20);
+  EXPECT_EQ(model.seconds("bar", "cvd", 2), 8);
+  EXPECT_FALSE(model.seconds("pot", "bem", 1));
+}
+
+// A training of an hour in the first of forty cells does not make forty hours.
+TEST(CostModelTest, TakesABodyOnceForEachShape) {
+  CostModel model;
+  const std::vector<StageTime> trained{{"prepare", 3600}, {"prediction", 1}},
+      loaded{{"prepare", 1}, {"prediction", 1}};
+  model.add("pot", "deepfracture", 3602, trained);
+  model.add("pot", "deepfracture", 5, loaded);
+  EXPECT_EQ(model.seconds("pot", "deepfracture", 40), 40 * 3);
+  EXPECT_EQ(model.seconds("mug", "deepfracture", 40), 3600 + 40 * 3);
+  EXPECT_EQ(model.seconds("mug", "deepfracture", 0), 0);
 }
 
 }  // namespace
