@@ -5,7 +5,11 @@
 
 #include <array>
 #include <bit>
+#include <fstream>
 #include <stdexcept>
+#include <vector>
+
+#include "core/error.h"
 
 namespace fracbench {
 
@@ -50,6 +54,23 @@ void Digest::add(std::span<const std::string_view> parts) {
   for (const std::string_view part : parts) size += part.size();
   state_->update(&size, sizeof size);
   for (const std::string_view part : parts) state_->update(part.data(), part.size());
+}
+
+void Digest::add_file(const std::filesystem::path& file) {
+  constexpr std::size_t kPart = 1 << 18;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff end = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  const auto size = static_cast<std::uint64_t>(end);
+  state_->update(&size, sizeof size);
+  stream.seekg(0);
+  std::vector<char> part(kPart);
+  std::streamoff seen = 0;
+  while (seen < end && stream) {
+    stream.read(part.data(), static_cast<std::streamsize>(part.size()));
+    state_->update(part.data(), static_cast<std::size_t>(stream.gcount()));
+    seen += stream.gcount();
+  }
+  if (end < 0 || seen < end) throw InputError(fmt::format("'{}' cannot be read", file.string()));
 }
 
 void Digest::add(std::uint64_t value) { add(std::as_bytes(std::span(&value, 1))); }

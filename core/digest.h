@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,6 +26,9 @@ class Digest {
   void add(std::string_view text);
   /// As one text, one after another.
   void add(std::span<const std::string_view> parts);
+  /// The bytes of a file, as one text; it need not fit into memory. Throws InputError where it
+  /// cannot be read.
+  void add_file(const std::filesystem::path& file);
   void add(std::uint64_t value);
   void add(double value);
   void add(const TriangleMesh& mesh);

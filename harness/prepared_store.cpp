@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <thread>
@@ -27,15 +26,9 @@ constexpr std::uint64_t kStoreVersion = 1;
 constexpr const char* kManifest = "manifest.json";
 constexpr auto kWaitInterval = std::chrono::milliseconds(100);
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("'{}' cannot be read", file.string()));
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::string digest_of(std::string_view bytes) {
+std::string digest_of(const fs::path& file) {
   Digest digest;
-  digest.add(bytes);
+  digest.add_file(file);
   return digest.hex();
 }
 
@@ -46,14 +39,18 @@ Json describe_files(const fs::path& folder) {
     if (!file.is_regular_file()) continue;
     const std::string name = file.path().lexically_relative(folder).generic_string();
     if (name == kManifest) continue;
-    files[name] = {{"bytes", file.file_size()}, {"sha256", digest_of(bytes_of(file.path()))}};
+    files[name] = {{"bytes", file.file_size()}, {"sha256", digest_of(file.path())}};
   }
   return files;
 }
 
 Json read_manifest(const fs::path& folder) {
   try {
-    Json manifest = Json::parse(bytes_of(folder / kManifest));
+    std::ifstream stream(folder / kManifest);
+    if (!stream) {
+      throw InputError(fmt::format("'{}' cannot be read", (folder / kManifest).string()));
+    }
+    Json manifest = Json::parse(stream);
     manifest.at("method").get<std::string>();
     manifest.at("shape").get<std::string>();
     manifest.at("seconds").get<double>();
@@ -74,7 +71,7 @@ std::string complaint(const fs::path& folder, const Json& manifest, bool digests
     if (fs::file_size(folder / name, error) != file["bytes"].get<std::uintmax_t>() || error) {
       return fmt::format("'{}' is missing or cut short", name);
     }
-    if (digests && digest_of(bytes_of(folder / name)) != file["sha256"].get<std::string>()) {
+    if (digests && digest_of(folder / name) != file["sha256"].get<std::string>()) {
       return fmt::format("'{}' is damaged", name);
     }
   }
@@ -140,7 +137,7 @@ std::string digest_of_files(const Method& method, const Options& options) {
   const std::vector<fs::path> files = method.files(options);
   if (files.empty()) return "";
   Digest digest;
-  for (const fs::path& file : files) digest.add(bytes_of(file));
+  for (const fs::path& file : files) digest.add_file(file);
   return digest.hex();
 }
 

@@ -1,6 +1,12 @@
 #include "core/digest.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
 
 namespace fracbench {
 namespace {
@@ -17,6 +23,23 @@ TEST(Digest, OfPartsIsThatOfTheWhole) {
   Digest digest;
   digest.add(parts);
   EXPECT_EQ(digest.hex(), "798c246007c2d105b64ef769d530bb4618b3f6c3eeee5c55dfd790ad6ad01410");
+}
+
+TEST(Digest, OfAFileIsThatOfItsBytes) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("digest-" + std::to_string(::getpid()));
+  for (const std::size_t size : {0u, 8u, 262144u, 700001u}) {
+    std::string bytes(size, 'x');
+    for (std::size_t k = 0; k < size; ++k) bytes[k] = static_cast<char>(k * k >> 5);
+    std::ofstream(file, std::ios::binary) << bytes;
+    Digest of_file, of_bytes;
+    of_file.add_file(file);
+    of_bytes.add(std::string_view(bytes));
+    EXPECT_EQ(of_file.hex(), of_bytes.hex()) << size;
+  }
+  std::filesystem::remove(file);
+  EXPECT_THROW(Digest().add_file(file), InputError);
+  EXPECT_THROW(Digest().add_file(file.parent_path()), InputError);  // a folder
 }
 
 TEST(Digest, ChangesWithEveryVertexAndFace) {
