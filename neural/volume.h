@@ -11,7 +11,8 @@ namespace fracbench::neural {
 /// From here on huge pages are worth their rounding.
 inline constexpr std::size_t kLargeBytes = 4 << 20;
 
-/// Memory that is not touched yet, in huge pages where the system has them. Throws std::bad_alloc.
+/// Memory in huge pages where the system has them: not touched yet, or a block of this size that
+/// was given back before, of which 256 MB are kept. Throws std::bad_alloc.
 void* map_huge_pages(std::size_t bytes);
 void unmap_huge_pages(void* block, std::size_t bytes) noexcept;
 

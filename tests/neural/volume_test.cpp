@@ -1,10 +1,13 @@
 #include "neural/volume.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <new>
 #include <numeric>
+
+#include "core/process_tree.h"
 
 namespace fracbench::neural {
 namespace {
@@ -29,6 +32,30 @@ TEST(Volume, ThatIsLargeBeginsWhereAHugePageCan) {
       EXPECT_EQ(reinterpret_cast<std::uintptr_t>(volume.data()) % (2 << 20), 0);
     }
   }
+}
+
+TEST(Volume, OfASizeThatWasGivenBackTakesItsPagesAgain) {
+  const std::size_t count = (std::size_t{33} << 20) / sizeof(float);
+  const float* before = nullptr;
+  {
+    const Volume volume(count, 1.0f);
+    before = volume.data();
+  }
+  const Volume another(count + kLargeBytes, 2.0f), again(count);
+  EXPECT_EQ(again.data(), before);
+  EXPECT_EQ(again[count / 2], 1.0f);
+  const Volume further(count, 3.0f);
+  EXPECT_NE(further.data(), before);
+}
+
+TEST(Volume, GivenBackIsKeptUpToABound) {
+  constexpr std::size_t kMany = 60, kBytes = std::size_t{16} << 20;
+  const std::size_t before = resident_memory(::getpid());
+  {
+    const std::vector<Volume> many(kMany, Volume(kBytes / sizeof(float), 1.0f));
+    EXPECT_GT(resident_memory(::getpid()), before + kMany * kBytes / 2);
+  }
+  EXPECT_LT(resident_memory(::getpid()), before + (std::size_t{300} << 20));
 }
 
 TEST(Volume, ThatIsTooLargeForAnyMemoryIsRefused) {
